@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include <Imath/ImathVec.h>
+
+#include <cmath>
+
+namespace bwfirt {
+
+/// Points, directions and colours. Files, rays and kernels' answers are single precision (V3f); the
+/// light transport computes in double precision (V3d).
+using Imath::V3d;
+using Imath::V3f;
+
+/// True where no component is infinite or NaN.
+template <typename T>
+bool isFinite(const Imath::Vec3<T>& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// The vector or its negative, whichever points against the direction. Which one it is cannot be
+/// predicted in light transport, hence a factor instead of a branch.
+inline V3d flippedAgainst(const V3d& direction, const V3d& vector) {
+    return std::copysign(1.0, -vector.dot(direction)) * vector;
+}
+
+}  // namespace bwfirt

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "render/PathTracer.h"
+
+#include "math/Sampling.h"
+
+#include <array>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+namespace bwfirt {
+
+PathTracer::PathTracer(const Scene& scene, const RTKernel& kernel, const Camera& camera, int width,
+                       int height, int inFlight)
+    : scene_(scene),
+      kernel_(kernel),
+      lights_(scene),
+      cameraRays_(camera, width, height),
+      sensorResponse_(camera.sensorResponse),
+      brdf_(scene.reflectance / std::numbers::pi),
+      inFlight_(static_cast<std::size_t>(inFlight)) {}
+
+void PathTracer::trace(std::span<Sample> samples, RayCounts& counts) const {
+    if (inFlight_ == 1)
+        traceOneByOne(samples, counts);
+    else
+        traceInFlight(samples, counts);
+}
+
+PathTracer::Path PathTracer::begin(Sample& sample) const {
+    Path path{&sample, Random(sample.seed), {}, 0, 0, {}, {}, {}, 0};
+    const auto [u, v] = path.random.uniformSquare();
+    path.ray = cameraRays_.through(sample.x + u, sample.y + v);
+    return path;
+}
+
+bool PathTracer::arrive(Path& path, const std::optional<Hit>& hit) const {
+    if (!hit)
+        return false;
+    const V3d direction(path.ray.direction);
+    const V3d normal = unitNormal(scene_.triangles[hit->triangle]);
+    path.normal = flippedAgainst(direction, normal);
+    if (path.bounce == 0)
+        path.radiance += lights_.radiance(hit->triangle);
+
+    const V3d hitPoint = V3d(path.ray.origin) + static_cast<double>(hit->distance) * direction;
+    const V3d x = hitPoint + RTKernel::NORMAL_OFFSET * path.normal;
+    const LightSample light = lights_.sample(path.random);
+    const V3d lightNormal = flippedAgainst(light.point - x, light.normal);
+    const V3d y = light.point + RTKernel::NORMAL_OFFSET * lightNormal;
+    path.x = V3f(x);
+    path.y = V3f(y);
+
+    const V3d d = y - x;
+    const double cosX = path.normal.dot(d), cosY = -lightNormal.dot(d);  // times |d|
+    path.contribution = 0;
+    if (cosX > 0 && cosY > 0) {
+        const double distanceSquared = d.dot(d);
+        path.contribution = brdf_ * light.radiance * cosX * cosY /
+                            (distanceSquared * distanceSquared * light.pdfArea);
+    }
+    return true;
+}
+
+bool PathTracer::scatter(Path& path) const {
+    if (!(path.random.uniform() < scene_.reflectance))
+        return false;
+    path.ray = {path.x, V3f(sampleCosineHemisphere(path.normal, path.random))};
+    ++path.bounce;
+    return true;
+}
+
+void PathTracer::end(const Path& path) const {
+    path.sample->value = V3d(sensorResponse_ * path.radiance);
+}
+
+void PathTracer::traceOneByOne(std::span<Sample> samples, RayCounts& counts) const {
+    for (Sample& sample : samples) {
+        Path path = begin(sample);
+        do {
+            ++counts.intersect;
+            if (!arrive(path, kernel_.kernelIntersectGeometry(path.ray)))
+                break;
+            if (path.contribution > 0) {
+                ++counts.visibility;
+                if (kernel_.kernelVisibility(path.x, path.y))
+                    path.radiance += path.contribution;
+            }
+        } while (scatter(path));
+        end(path);
+    }
+}
+
+void PathTracer::traceInFlight(std::span<Sample> samples, RayCounts& counts) const {
+    std::vector<Path> paths;
+    std::vector<Ray> rays(inFlight_);
+    std::vector<std::optional<Hit>> hits(inFlight_);
+    std::vector<RTKernel::Segment> segments(inFlight_);
+    std::vector<std::size_t> connected(inFlight_);
+    const auto visible = std::make_unique<bool[]>(inFlight_);
+    paths.reserve(inFlight_);
+
+    std::size_t begun = 0;
+    while (true) {
+        while (paths.size() < inFlight_ && begun < samples.size())
+            paths.push_back(begin(samples[begun++]));
+        if (paths.empty())
+            return;
+
+        for (std::size_t i = 0; i < paths.size(); ++i)
+            rays[i] = paths[i].ray;
+        kernel_.kernelIntersectMany({rays.data(), paths.size()}, {hits.data(), paths.size()});
+        counts.intersect += paths.size();
+
+        std::size_t alive = 0;
+        std::size_t connections = 0;
+        for (std::size_t i = 0; i < paths.size(); ++i) {
+            if (!arrive(paths[i], hits[i])) {
+                end(paths[i]);
+                continue;
+            }
+            paths[alive] = paths[i];
+            if (paths[alive].contribution > 0) {
+                connected[connections] = alive;
+                segments[connections++] = {paths[alive].x, paths[alive].y};
+            }
+            ++alive;
+        }
+        paths.erase(paths.begin() + static_cast<std::ptrdiff_t>(alive), paths.end());
+
+        kernel_.kernelVisibleMany({segments.data(), connections}, {visible.get(), connections});
+        counts.visibility += connections;
+        for (std::size_t i = 0; i < connections; ++i) {
+            Path& path = paths[connected[i]];
+            if (visible[i])
+                path.radiance += path.contribution;
+        }
+
+        std::erase_if(paths, [&](Path& path) {
+            if (scatter(path))
+                return false;
+            end(path);
+            return true;
+        });
+    }
+}
+
+}  // namespace bwfirt

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "kernel/RTKernel.h"
+#include "math/Random.h"
+#include "render/Integrator.h"
+#include "scene/Camera.h"
+#include "scene/LightSampler.h"
+#include "scene/Scene.h"
+
+#include <optional>
+
+namespace bwfirt {
+
+/// Path tracing with next event estimation: at each vertex of a path a point on the lights is
+/// chosen and connected by V, then the path goes on into a random direction, which h follows
+/// (Veach: Robust Monte Carlo Methods for Light Transport Simulation, 1997; Pharr, Jakob,
+/// Humphreys: Physically Based Rendering, section "Path tracing"). Surfaces are Lambertian on both
+/// sides, and Russian roulette ends a path with the probability with which its surface absorbs, so
+/// that the weight of a path stays 1.
+///
+/// A path's random numbers are its own. It is therefore the same path however many others are
+/// traced at the same time, and a kernel's answer to one ray changes that ray's path only.
+class PathTracer : public Integrator {
+  public:
+    /// Paths that a thread may keep in flight.
+    static constexpr int MAX_IN_FLIGHT = 1024;
+
+    /// @param inFlight 1 asks the kernel ray by ray; a larger number keeps as many paths going on
+    ///        each thread and asks for their rays together
+    PathTracer(const Scene& scene, const RTKernel& kernel, const Camera& camera, int width,
+               int height, int inFlight);
+
+    void trace(std::span<Sample> samples, RayCounts& counts) const override;
+
+  private:
+    /// A path between two questions to the kernel.
+    struct Path {
+        Sample* sample;
+        Random random;
+        Ray ray;              ///< to be followed next
+        int bounce;           ///< surfaces met so far
+        double radiance;      ///< found so far
+        V3d normal;           ///< of the surface met last, on the side that the path came from
+        V3f x, y;             ///< the connection: from that surface to a light
+        double contribution;  ///< of the connection where x sees y; 0 where V need not be asked
+    };
+
+    Path begin(Sample& sample) const;
+
+    /// The ray met a surface, or none. False where the path ends here; otherwise it is ready to be
+    /// connected to a light.
+    bool arrive(Path& path, const std::optional<Hit>& hit) const;
+
+    /// Chooses whether and where the path goes on. False where it is absorbed.
+    bool scatter(Path& path) const;
+
+    void end(const Path& path) const;
+
+    void traceOneByOne(std::span<Sample> samples, RayCounts& counts) const;
+    void traceInFlight(std::span<Sample> samples, RayCounts& counts) const;
+
+    const Scene& scene_;
+    const RTKernel& kernel_;
+    LightSampler lights_;
+    CameraRays cameraRays_;
+    double sensorResponse_;
+    double brdf_;  ///< of every surface: reflectance / pi
+    std::size_t inFlight_;
+};
+
+}  // namespace bwfirt

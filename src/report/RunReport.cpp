@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "report/RunReport.h"
+
+#include "kernel/KernelInfo.h"
+#include "report/BuildInfo.h"
+#include "report/SystemInfo.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace bwfirt {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// NaN becomes null: JSON has no such number.
+Json rgb(const V3d& colour) {
+    return Json::array({colour.x, colour.y, colour.z});
+}
+
+Json options(const std::vector<KernelOption>& set) {
+    Json object = Json::object();
+    for (const KernelOption& option : set)
+        object[option.name] = option.value;
+    return object;
+}
+
+Json asJson(const RunReport& report) {
+    const SystemInfo system = systemInfo();
+    Json json = {
+        {"schema", 1},
+        {"program",
+         {{"version", BuildInfo::VERSION},
+          {"commit", BuildInfo::COMMIT},
+          {"compiler", BuildInfo::COMPILER},
+          {"flags", BuildInfo::FLAGS},
+          {"kernel_flags", KernelInfo::FLAGS},
+          {"openmp", true}}},
+        {"system",
+         {{"cpu", system.cpu},
+          {"cores", system.cores},
+          {"threads_available", system.threadsAvailable},
+          {"memory_bytes", system.memoryBytes},
+          {"os", system.os},
+          {"date", system.date}}},
+        {"kernel", KernelInfo::NAME},
+        {"kernel_options", options(report.kernelOptions)},
+        {"scene", report.scene},
+        {"camera", report.camera},
+        {"triangles", report.triangles},
+        {"threads", report.threads},
+        {"in_flight", report.inFlight},
+        {"passes", report.passes},
+        {"width", report.width},
+        {"height", report.height},
+        {"seed", report.seed},
+        {"time",
+         {{"load_s", report.secondsLoad},
+          {"initialize_s", report.secondsInitialize},
+          {"render_s", report.secondsRender},
+          {"total_s", report.secondsTotal()}}},
+        {"rays",
+         {{"intersect", report.rays.intersect},
+          {"visibility", report.rays.visibility},
+          {"per_second", report.raysPerSecond()}}},
+        {"memory",
+         {{"kernel_peak_bytes", report.kernelBytesPeak},
+          {"kernel_final_bytes", report.kernelBytesFinal},
+          {"kernel_leaked_bytes", report.kernelBytesLeaked},
+          {"process_peak_bytes", report.processBytesPeak},
+          {"triangles_bytes", report.trianglesBytes}}},
+        {"average_intensity", rgb(report.averageIntensity)},
+        {"standard_error", rgb(report.standardError)},
+        {"reference_average_intensity",
+         report.referenceAverageIntensity ? rgb(*report.referenceAverageIntensity) : Json(nullptr)},
+        {"squared_error", report.squaredError()},
+        {"warnings", report.warnings},
+    };
+    if (!report.view.empty())
+        json["view"] = report.view;
+    return json;
+}
+
+std::string format(const char* pattern, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, pattern, value);
+    return text;
+}
+
+/// A value with the unit that the end of its key stands for.
+std::string asText(const std::string& key, const Json& value) {
+    if (value.is_string())
+        return value.get<std::string>();
+    if (value.is_null())
+        return "unknown";
+    if (key.ends_with("_s"))
+        return format("%.3f s", value.get<double>());
+    if (key.ends_with("_bytes"))
+        return format("%.3f MB", value.get<double>() / 1e6) + " (" + value.dump() + ")";
+    if (key == "per_second")
+        return format("%.4f million", value.get<double>() / 1e6);
+    if (!value.is_array())
+        return value.dump();
+    std::string text;
+    for (const Json& element : value)
+        text += (text.empty() ? "" : " ") + asText("", element);
+    return text;
+}
+
+void appendLines(std::string& text, const std::string& prefix, const Json& object) {
+    constexpr std::size_t COLUMN = 32;
+    for (const auto& [key, value] : object.items()) {
+        std::string name = prefix + key;
+        if (value.is_object()) {
+            appendLines(text, name + ".", value);
+            continue;
+        }
+        name.resize(std::max(COLUMN, name.size() + 1), ' ');
+        text += name + asText(key, value) + "\n";
+    }
+}
+
+}  // namespace
+
+/// Paths may hold any bytes; those that are not UTF-8 are replaced.
+std::string reportAsJson(const RunReport& report) {
+    return asJson(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string reportAsText(const RunReport& report) {
+    std::string text;
+    appendLines(text, "", asJson(report));
+    return text;
+}
+
+}  // namespace bwfirt

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "math/Ray.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace bwfirt {
+
+/// A pinhole camera as its file describes it.
+struct Camera {
+    V3d position;
+    V3d direction{0, 0, -1};    ///< any length but 0
+    V3d up{0, 1, 0};            ///< any length, not parallel to direction
+    double depth = 1;           ///< distance of the film from the pinhole
+    double filmSizeY = 1;       ///< film height, in the unit of depth
+    double sensorResponse = 1;  ///< factor on the radiance
+    std::optional<V3d> referenceAverageIntensity;
+};
+
+/// Reads a camera file.
+/// @throws std::runtime_error "<file>:<line>: <key>: <what was expected>"
+Camera readCamera(const std::filesystem::path& path);
+
+/// Read again, the file gives the same camera to the bit.
+void writeCamera(const std::filesystem::path& path, const Camera& camera);
+
+/// The rays of a camera for an image of a given size: what stays the same from pixel to pixel.
+class CameraRays {
+  public:
+    CameraRays(const Camera& camera, int width, int height);
+
+    /// The ray through the image point (x, y) in pixels: (0, 0) is the upper left corner of the
+    /// image, (width, height) the lower right one.
+    Ray through(double x, double y) const {
+        const V3d direction = toUpperLeft_ + x * alongRow_ + y * alongColumn_;
+        return {origin_, V3f(direction * (1 / std::sqrt(direction.dot(direction))))};
+    }
+
+  private:
+    V3f origin_;
+    V3d toUpperLeft_;
+    V3d alongRow_;
+    V3d alongColumn_;
+};
+
+}  // namespace bwfirt

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace bwfirt {
+
+/// A word of a text file and the line, counted from 1, on which it stands.
+struct Word {
+    std::string text;
+    int line = 0;
+};
+
+/// Reads a text file word by word: words are separated by white space, '#' begins a comment that
+/// runs to the end of the line, and double quotes hold a word with spaces or '#' together. Numbers
+/// do not depend on the locale. Errors are std::runtime_error with "<file>:<line>: <what is
+/// wrong>".
+class TextReader {
+  public:
+    explicit TextReader(std::filesystem::path path);
+
+    const std::filesystem::path& path() const { return path_; }
+
+    /// The next word without taking it; nothing at the end of the file.
+    const std::optional<Word>& peek() const { return next_; }
+
+    /// Takes the next word. `key` and `expected` tell the user what is missing where there is none.
+    Word take(std::string_view key, std::string_view expected);
+
+    /// Takes a finite number.
+    double takeNumber(std::string_view key, std::string_view expected);
+
+    /// Takes a whole number.
+    std::int64_t takeInteger(std::string_view key, std::string_view expected);
+
+    /// "<file>:<line>: <what>"
+    [[noreturn]] void fail(int line, const std::string& what) const;
+
+    /// "<file>:<line>: <key>: expected <expected>, not '<found>'"
+    [[noreturn]] void failExpected(const Word& found, std::string_view key,
+                                   std::string_view expected) const;
+
+  private:
+    void advance();
+
+    std::filesystem::path path_;
+    std::string content_;
+    std::size_t position_ = 0;
+    int line_ = 1;
+    std::optional<Word> next_;
+};
+
+/// The finite number that the whole text is; nothing where it is something else.
+std::optional<double> parseNumber(std::string_view text);
+
+/// The shortest text from which parseNumber gives back this very number.
+std::string formatNumber(double value);
+
+}  // namespace bwfirt
