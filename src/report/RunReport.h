@@ -38,8 +38,8 @@ struct RunReport {
     std::uint64_t processBytesPeak = 0;
     std::uint64_t trianglesBytes = 0;
 
-    V3d averageIntensity;
-    V3d standardError;  ///< NaN after a single pass
+    V3d averageIntensity{0};
+    V3d standardError{0};  ///< NaN after a single pass
     std::optional<V3d> referenceAverageIntensity;
 
     std::vector<std::string> warnings;

@@ -10,7 +10,7 @@ namespace bwfirt {
 
 /// A pinhole camera as its file describes it.
 struct Camera {
-    V3d position;
+    V3d position{0, 0, 0};
     V3d direction{0, 0, -1};    ///< any length but 0
     V3d up{0, 1, 0};            ///< any length, not parallel to direction
     double depth = 1;           ///< distance of the film from the pinhole

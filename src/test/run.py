@@ -1,0 +1,63 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
+"""Runs test programs and the Python tests; ends with the line 'N passed, N failed'.
+
+usage: run.py [--no-program-tests] TEST_PROGRAM ...
+"""
+
+import argparse
+import importlib.util
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+
+
+def counts(report: Path, status: int) -> tuple[int, int, int]:
+    """Passed, failed and skipped of a JUnit report. A run that died counts as one failure."""
+    if not report.exists():
+        return 0, 1, 0
+    suites = ElementTree.parse(report).getroot().iter('testsuite')
+    total = failed = skipped = 0
+    for suite in suites:
+        total += int(suite.get('tests', 0))
+        failed += int(suite.get('failures', 0)) + int(suite.get('errors', 0))
+        skipped += int(suite.get('skipped', 0))
+    if status != 0 and failed == 0:
+        failed, total = failed + 1, total + 1
+    return total - failed - skipped, failed, skipped
+
+
+def run(command: list[str], report: Path) -> tuple[int, int, int]:
+    print(f"--- {Path(command[0]).name} {' '.join(command[1:2])}", flush=True)
+    status = subprocess.run(command, check=False).returncode
+    return counts(report, status)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser()
+    parser.add_argument('programs', nargs='+')
+    parser.add_argument('--no-program-tests', action='store_true')
+    arguments = parser.parse_args()
+    if not arguments.no_program_tests and importlib.util.find_spec('pytest') is None:
+        sys.exit('run.py: pytest is missing: install the Debian package python3-pytest')
+
+    results = []
+    with tempfile.TemporaryDirectory() as folder:
+        for program in arguments.programs:
+            report = Path(folder) / f'{Path(program).name}.xml'
+            results.append(run([program, '--gtest_brief=1', f'--gtest_output=xml:{report}'], report))
+        if not arguments.no_program_tests:
+            report = Path(folder) / 'program.xml'
+            results.append(run([sys.executable, '-m', 'pytest', '-q', '-rs', '-p', 'no:cacheprovider',
+                                f'--junitxml={report}', str(HERE / 'program')], report))
+    passed, failed, skipped = (sum(column) for column in zip(*results))
+    print(f'{passed} passed, {failed} failed' + (f', {skipped} skipped' if skipped else ''))
+    return 1 if failed else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
