@@ -10,6 +10,8 @@
 #include "report/SystemInfo.h"
 #include "scene/FileIO.h"
 
+#include <omp.h>
+
 #include <chrono>
 #include <csignal>
 #include <iostream>
@@ -103,11 +105,13 @@ RunReport describe(const Settings& settings, const Scene& scene, const Camera& c
 
 }  // namespace
 
-void runBatch(const Settings& settings, std::unique_ptr<RTKernel> kernel) {
+void runBatch(const Settings& settings, std::unique_ptr<RTKernel> givenKernel) {
     catchSignals();
     requireOutputsWritable(settings);
+    omp_set_num_threads(settings.threads);  // for the kernel, which may build in parallel
 
     Scene scene;
+    std::unique_ptr<RTKernel> kernel = std::move(givenKernel);  // destroyed before its triangles
     Camera camera;
     const double secondsLoad = secondsOf([&] {
         camera = readCamera(settings.camera);

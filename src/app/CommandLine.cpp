@@ -83,8 +83,7 @@ std::optional<Settings> parseCommandLine(int argc, const char* const* argv, RTKe
     app.set_version_flag("--version", program + " " + BuildInfo::VERSION + " (" +
                                           BuildInfo::COMMIT + ", " + BuildInfo::COMPILER + ")");
     app.add_option("SCENE", settings.scene, "scene file")->required();
-    app.add_flag("--batch", settings.batch,
-                 "no window; needs --camera. Without it the viewer opens");
+    app.add_flag("--batch", settings.batch, "no window; needs --camera");
     app.add_option("--camera", settings.camera, "camera file")->type_name("FILE");
     app.add_option("--threads", settings.threads,
                    "threads, default: all that this process may run on")
@@ -95,6 +94,9 @@ std::optional<Settings> parseCommandLine(int argc, const char* const* argv, RTKe
         ->type_name("N");
     app.add_option("--size", size, "image size in pixels, default 640x480")->type_name("WxH");
     app.add_option("--seed", settings.seed, "seed of all random numbers, default 1")
+        ->check([](const std::string& text) {
+            return text.starts_with('-') ? "expected a number not below 0, not " + text : "";
+        })
         ->type_name("N");
     app.add_option("--output", settings.output,
                    "writes BASE.exr (linear float) and BASE.png (sRGB)")
@@ -108,6 +110,7 @@ std::optional<Settings> parseCommandLine(int argc, const char* const* argv, RTKe
     app.add_option("--in-flight", settings.inFlight,
                    "paths per thread in flight, default 1: the kernel is asked ray by ray")
         ->check(CLI::Range(1, PathTracer::MAX_IN_FLIGHT))
+        ->excludes("--view")
         ->type_name("N");
     app.add_option("--kernel-option", kernelOptions,
                    "sets an option of the kernel; may be repeated")

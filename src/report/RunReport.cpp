@@ -105,8 +105,11 @@ std::string asText(const std::string& key, const Json& value) {
     if (!value.is_array())
         return value.dump();
     std::string text;
-    for (const Json& element : value)
-        text += (text.empty() ? "" : " ") + asText("", element);
+    for (const Json& element : value) {
+        if (!text.empty())
+            text += ' ';
+        text += asText("", element);
+    }
     return text;
 }
 

@@ -133,6 +133,8 @@ Camera readCamera(const std::filesystem::path& path) {
     for (const char* key : REQUIRED)
         if (!lineOf.contains(key))
             text.fail(1, std::string(key) + ": expected this key");
+    if (!isFinite(V3f(camera.position)))
+        text.fail(lineOf["position"], "position: expected numbers of single precision");
     if (camera.direction == V3d(0))
         text.fail(lineOf["direction"], "direction: expected a vector that is not 0");
     if (camera.up == V3d(0) || areParallel(camera.direction, camera.up))

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <stdexcept>
 
 namespace bwfirt {
 
@@ -79,8 +80,11 @@ void checkLightsTogether(const TextReader& text, std::vector<LightEntry> entries
     }
 }
 
-std::string quotedIfNeeded(const std::string& word) {
-    return word.find_first_of(" \t#") == std::string::npos ? word : '"' + word + '"';
+/// @throws std::runtime_error where no word of a scene file can hold the path
+std::string quotedIfNeeded(const std::string& path) {
+    if (path.empty() || path.find_first_of("\"\n") != std::string::npos)
+        throw std::runtime_error("a scene file cannot hold the path '" + path + "'");
+    return path.find_first_of(" \t\r\v\f#") == std::string::npos ? path : '"' + path + '"';
 }
 
 }  // namespace

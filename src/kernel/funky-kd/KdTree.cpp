@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace bwfirt {
 
@@ -74,6 +75,8 @@ class Builder {
         references = {};
 
         const std::size_t index = tree_.nodes.size();
+        if (index >= KdNode::MOST_NODES)
+            throw std::length_error("the kd-tree has more nodes than it can number");
         tree_.nodes.push_back(KdNode::inner(axis, position));
         Bounds firstCell = cell, secondCell = cell;
         firstCell.high[axis] = secondCell.low[axis] = position;

@@ -19,6 +19,9 @@ struct Bounds {
 /// A node in eight bytes. The first child of an inner node stands directly behind it.
 class KdNode {
   public:
+    /// What the 30 bits for a child's index can tell apart.
+    static constexpr std::size_t MOST_NODES = std::size_t{1} << 30;
+
     static KdNode leaf(std::uint32_t first, std::uint32_t count) {
         KdNode node;
         node.first_ = first;

@@ -15,9 +15,11 @@ class YourKernel : public RTKernel {
         const WatertightRay watertightRay(V3d(ray.origin), V3d(ray.direction));
         std::optional<Hit> nearest;
         for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-            if (!hasArea(triangles_[i])) continue;
+            if (!hasArea(triangles_[i]))
+                continue;
             const std::optional<double> t = watertightRay.intersect(triangles_[i]);
-            if (!t) continue;
+            if (!t)
+                continue;
             const auto distance = static_cast<float>(*t);
             if (distance > 0 && std::isfinite(distance) &&
                 (!nearest || distance < nearest->distance))
@@ -34,6 +36,8 @@ class YourKernel : public RTKernel {
 
 }  // namespace
 
-std::unique_ptr<RTKernel> createKernel() { return std::make_unique<YourKernel>(); }
+std::unique_ptr<RTKernel> createKernel() {
+    return std::make_unique<YourKernel>();
+}
 
 }  // namespace bwfirt

@@ -17,6 +17,8 @@ namespace {
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 
+/// The triangles have to outlive the kernel.
+std::unique_ptr<RTKernel> kernelFor(Triangles&& triangles) = delete;
 std::unique_ptr<RTKernel> kernelFor(const Triangles& triangles) {
     std::unique_ptr<RTKernel> kernel = createKernel();
     kernel->kernelInitialize(triangles);
@@ -87,7 +89,8 @@ TEST(Conformance, ClosedMesh) {
 }
 
 TEST(Conformance, NoOneOrTwoTriangles) {
-    const auto none = kernelFor({});
+    const Triangles nothing;
+    const auto none = kernelFor(nothing);
     EXPECT_FALSE(none->kernelIntersectGeometry({V3f(0), V3f(1, 0, 0)}));
     EXPECT_TRUE(none->kernelVisibility(V3f(0), V3f(1)));
     std::mt19937 random(2);
@@ -217,7 +220,8 @@ TEST(Conformance, RaysThroughGridPointsHitTheGrid) {
 }
 
 TEST(Conformance, NonFiniteRaysMiss) {
-    const auto kernel = kernelFor(sphere(V3f(0), 1, 3, 0));
+    const Triangles mesh = sphere(V3f(0), 1, 3, 0);
+    const auto kernel = kernelFor(mesh);
     for (const float bad : {NOT_A_NUMBER, INFINITE, -INFINITE}) {
         for (int axis = 0; axis < 3; ++axis) {
             V3f point(0.1F, 0.2F, 0.3F), direction = V3f(0.6F, 0, 0.8F);

@@ -64,6 +64,15 @@ TEST_F(SceneFile, AWrittenSceneIsTheSameWhenReadAgain) {
     EXPECT_EQ(again.lights[1].exitance, 1.0 / 3);
 }
 
+TEST_F(SceneFile, APathThatNoWordCanHoldIsNotWritten) {
+    Scene scene;
+    for (const char* path : {"", "a\"b.ra2", "a\nb.ra2"}) {
+        scene.trianglesPath = path;
+        EXPECT_THROW(writeScene(folder / "a.scene", scene), std::runtime_error);
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.scene"));
+}
+
 TEST_F(SceneFile, ErrorsNameLineKeyAndWhatWasExpected) {
     EXPECT_EQ(errorOf("triangles box.ra2\n\ncolour 3"),
               ":3: scene: expected one of the keys triangles, lights, reflectance, not 'colour'");
