@@ -58,10 +58,18 @@ class Player : public RTKernel {
     mutable const char* nextVisible_;
 };
 
-RayCounts render(const Scene& scene, const Camera& camera, const RTKernel& kernel) {
+struct Rendering {
+    RayCounts counts;
+    std::chrono::duration<double, std::nano> time;
+};
+
+/// One pass, timed without the making of the film, as the passes of a run are.
+Rendering render(const Scene& scene, const Camera& camera, const RTKernel& kernel) {
     const PathTracer pathTracer(scene, kernel, camera, WIDTH, HEIGHT, 1);
     Film film(WIDTH, HEIGHT);
-    return Renderer(pathTracer, SEED, 1).renderPass(film);
+    const auto start = std::chrono::steady_clock::now();
+    const RayCounts counts = Renderer(pathTracer, SEED, 1).renderPass(film);
+    return {counts, std::chrono::steady_clock::now() - start};
 }
 
 void measure(const char* scenePath, const char* cameraPath) {
@@ -70,17 +78,12 @@ void measure(const char* scenePath, const char* cameraPath) {
     const std::unique_ptr<RTKernel> kernel = createKernel();
     kernel->kernelInitialize(scene.triangles);
     Answers answers;
-    const RayCounts counts = render(scene, camera, Recorder(*kernel, answers));
+    const RayCounts counts = render(scene, camera, Recorder(*kernel, answers)).counts;
     const auto rays = static_cast<double>(counts.intersect + counts.visibility);
 
     std::vector<double> nanoseconds;
-    for (int i = 0; i < REPEATS; ++i) {
-        const auto start = std::chrono::steady_clock::now();
-        render(scene, camera, Player(answers));
-        const std::chrono::duration<double, std::nano> time =
-            std::chrono::steady_clock::now() - start;
-        nanoseconds.push_back(time.count() / rays);
-    }
+    for (int i = 0; i < REPEATS; ++i)
+        nanoseconds.push_back(render(scene, camera, Player(answers)).time.count() / rays);
     std::sort(nanoseconds.begin(), nanoseconds.end());
     std::printf("%.0f rays, framework: median %.1f ns per ray, from %.1f to %.1f in %d repeats\n",
                 rays, nanoseconds[REPEATS / 2], nanoseconds.front(), nanoseconds.back(), REPEATS);
