@@ -47,9 +47,10 @@ TextReader::TextReader(std::filesystem::path path)
 
 Word TextReader::take(std::string_view key, std::string_view expected) {
     if (!next_)
-        fail(line_, std::string(key) + ": expected " + std::string(expected) +
-                        ", not the end of the file");
+        fail(lineOfLastWord_, std::string(key) + ": expected " + std::string(expected) +
+                                  ", not the end of the file");
     Word word = std::move(*next_);
+    lineOfLastWord_ = word.line;
     advance();
     return word;
 }

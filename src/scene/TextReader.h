@@ -51,6 +51,7 @@ class TextReader {
     std::string content_;
     std::size_t position_ = 0;
     int line_ = 1;
+    int lineOfLastWord_ = 1;
     std::optional<Word> next_;
 };
 
