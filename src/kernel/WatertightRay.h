@@ -4,6 +4,7 @@
 #include "math/Vector.h"
 #include "scene/Triangle.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace bwfirt {
@@ -49,10 +50,9 @@ class WatertightRay {
         const double u = cx * by - cy * bx;
         const double v = ax * cy - ay * cx;
         const double w = bx * ay - by * ax;
-        // Minimum and maximum instead of six comparisons: one branch that can be predicted.
-        const bool isInside = ((u >= 0) & (v >= 0) & (w >= 0)) | ((u <= 0) & (v <= 0) & (w <= 0));
+        const double least = std::min(std::min(u, v), w), most = std::max(std::max(u, v), w);
         const double determinant = u + v + w;
-        if (!isInside || determinant == 0)
+        if (((least < 0) & (most > 0)) | (determinant == 0))
             return std::nullopt;
 
         const double z = (u * az + v * bz + w * cz) / determinant;

@@ -121,9 +121,11 @@ class FunkyKd : public RTKernel {
                 const bool isFirstNear = inverse[axis] > 0;
                 const std::uint32_t near = isFirstNear ? index + 1 : node.secondChild();
                 const std::uint32_t far = isFirstNear ? node.secondChild() : index + 1;
-                const bool isFarOnly = t<interval.begin, isNearOnly = t> interval.end;
-                // Which of the three cases it is cannot be predicted: all of this is done without a
-                // branch. A ray within the plane, where t is NaN, keeps its interval in both cells.
+                // Which of the three cases it is cannot be predicted, and most of this becomes
+                // conditional moves. A ray within the plane, where t is NaN, keeps its interval in
+                // both cells.
+                const bool isFarOnly = t < interval.begin;
+                const bool isNearOnly = t > interval.end;
                 stack[size] = {far, {std::max(interval.begin, t * LESS), interval.end}};
                 size += isFarOnly || isNearOnly ? 0 : 1;
                 interval.end = isFarOnly ? interval.end : std::min(interval.end, t * MORE);
@@ -144,7 +146,7 @@ class FunkyKd : public RTKernel {
         }
     }
 
-    std::uint32_t leafSize_ = 6;
+    std::uint32_t leafSize_ = 4;
     std::span<const Triangle> triangles_;
     KdTree tree_;
 };
