@@ -1,17 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "kernel/Triangle4.h"
 #include "math/Vector.h"
-#include "scene/Triangle.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 namespace bwfirt {
 
+/// One triangle, where Number is double, or four of them, where it is Doubles4, as a ray sees them.
+template <typename Number>
+struct TriangleEdges {
+    Number u, v, w;     ///< on which side the ray passes the edges opposite to a, b and c
+    Number az, bz, cz;  ///< how far the vertices are along the ray's axis
+    Number determinant;
+
+    auto areMet() const {
+        using std::max, std::min;
+        const Number least = min(min(u, v), w), most = max(max(u, v), w);
+        return ((least >= 0) | (most <= 0)) & (determinant != 0);
+    }
+    Number z() const { return (u * az + v * bz + w * cz) / determinant; }
+};
+
 /// The points origin + t * direction, t > 0, prepared for tests against triangles in double
-/// precision. The direction may have any length. Kernels that use this test differ from each other
-/// in nothing but their acceleration structures.
+/// precision, one by one or four at once. The direction may have any length. Kernels that use this
+/// test differ from each other in nothing but their acceleration structures.
 ///
 /// The test is that of Woop, Benthin and Wald: "Watertight ray/triangle intersection", JCGT 2(1),
 /// 2013. It sees the triangle from the ray's origin, sheared such that the ray runs along an axis;
@@ -41,28 +57,63 @@ class WatertightRay {
     /// The t in (0, infinity) at which the ray meets the triangle, from either side. Nothing for a
     /// ray in the triangle's plane, and wherever a NaN takes part.
     std::optional<double> intersect(const Triangle& triangle) const {
-        const auto& [a, b, c] = triangle.vertices;
-        const double az = a[kz_] - originZ_, bz = b[kz_] - originZ_, cz = c[kz_] - originZ_;
-        const double ax = a[kx_] - originX_ - shearX_ * az, ay = a[ky_] - originY_ - shearY_ * az;
-        const double bx = b[kx_] - originX_ - shearX_ * bz, by = b[ky_] - originY_ - shearY_ * bz;
-        const double cx = c[kx_] - originX_ - shearX_ * cz, cy = c[ky_] - originY_ - shearY_ * cz;
-
-        const double u = cx * by - cy * bx;
-        const double v = ax * cy - ay * cx;
-        const double w = bx * ay - by * ax;
-        const double least = std::min(std::min(u, v), w), most = std::max(std::max(u, v), w);
-        const double determinant = u + v + w;
-        if (((least < 0) & (most > 0)) | (determinant == 0))
+        const auto edges = edgesOf<double>([&](std::size_t vertex, int axis) {
+            return static_cast<double>(triangle.vertices[vertex][axis]);
+        });
+        if (!edges.areMet())
             return std::nullopt;
-
-        const double z = (u * az + v * bz + w * cz) / determinant;
-        const double t = z / directionZ_;
+        const double t = edges.z() / directionZ_;
         if (!(t > 0))
             return std::nullopt;
         return t;
     }
 
+    /// Where a ray meets the nearest of several triangles.
+    struct Meeting {
+        double t;
+        std::uint32_t triangle;  ///< index into the triangles of kernelInitialize
+    };
+
+    /// The nearest of the four triangles that the ray meets with t in (tMin, tMax). Each t is that
+    /// of the function above, to the bit.
+    std::optional<Meeting> intersect(const Triangle4& triangles, double tMin, double tMax) const {
+        const auto edges = edgesOf<Doubles4>(
+            [&](std::size_t vertex, int axis) { return triangles.coordinates(vertex, axis); });
+        const auto areMet = edges.areMet();
+        if (std::experimental::none_of(areMet))
+            return std::nullopt;
+        Doubles4 t = edges.z() / directionZ_;
+        std::experimental::where(!(areMet & (t > tMin) & (t < tMax)), t) =
+            std::numeric_limits<double>::infinity();
+        const double nearest = std::experimental::hmin(t);
+        if (!(nearest < tMax))
+            return std::nullopt;
+        return Meeting{nearest, triangles.index(std::experimental::find_first_set(t == nearest))};
+    }
+
   private:
+    /// @param coordinate (vertex, axis) -> Number
+    template <typename Number, typename Coordinate>
+    TriangleEdges<Number> edgesOf(const Coordinate& coordinate) const {
+        const auto along = [&](std::size_t vertex, int axis, double origin) -> Number {
+            return coordinate(vertex, axis) - origin;
+        };
+        const Number az = along(0, kz_, originZ_);
+        const Number bz = along(1, kz_, originZ_);
+        const Number cz = along(2, kz_, originZ_);
+        const Number ax = along(0, kx_, originX_) - shearX_ * az;
+        const Number bx = along(1, kx_, originX_) - shearX_ * bz;
+        const Number cx = along(2, kx_, originX_) - shearX_ * cz;
+        const Number ay = along(0, ky_, originY_) - shearY_ * az;
+        const Number by = along(1, ky_, originY_) - shearY_ * bz;
+        const Number cy = along(2, ky_, originY_) - shearY_ * cz;
+
+        const Number u = cx * by - cy * bx;
+        const Number v = ax * cy - ay * cx;
+        const Number w = bx * ay - by * ax;
+        return {u, v, w, az, bz, cz, u + v + w};
+    }
+
     V3d origin_;
     V3d direction_;
     int kx_, ky_, kz_;                    ///< axes, kz_ that of the direction's largest component

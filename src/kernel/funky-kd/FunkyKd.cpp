@@ -29,19 +29,19 @@ class FunkyKd : public RTKernel {
     }
 
     void kernelInitialize(std::span<const Triangle> triangles) override {
-        triangles_ = triangles;
         tree_ = buildKdTree(triangles, leafSize_);
     }
 
     std::optional<Hit> kernelIntersectGeometry(const Ray& ray) const override {
-        const WatertightRay watertightRay(V3d(ray.origin), V3d(ray.direction));
-        double tNearest = std::numeric_limits<float>::max();
+        // What is not above half of the least float is a distance of 0 as a float.
+        constexpr double T_MIN = std::numeric_limits<float>::denorm_min() / 2.0;
+        double tMax = std::numeric_limits<float>::max();
         std::optional<Hit> nearest;
-        traverse(watertightRay, tNearest, [&](std::uint32_t triangle, double t) {
-            const auto distance = static_cast<float>(t);
-            if (t < tNearest && distance > 0) {
-                tNearest = t;
-                nearest = {distance, triangle};
+        const WatertightRay watertightRay(V3d(ray.origin), V3d(ray.direction));
+        traverse(watertightRay, tMax, [&](const Triangle4& triangles) {
+            if (const auto meeting = watertightRay.intersect(triangles, T_MIN, tMax)) {
+                tMax = meeting->t;
+                nearest = {static_cast<float>(meeting->t), meeting->triangle};
             }
             return false;
         });
@@ -50,11 +50,9 @@ class FunkyKd : public RTKernel {
 
     bool kernelVisibility(const V3f& x, const V3f& y) const override {
         const WatertightRay segment(V3d(x), V3d(y) - V3d(x));
-        double tMax = 1;
         bool isVisible = true;
-        traverse(segment, tMax, [&](std::uint32_t, double t) {
-            if (t < 1)
-                isVisible = false;
+        traverse(segment, 1, [&](const Triangle4& triangles) {
+            isVisible = !segment.intersect(triangles, 0, 1);
             return !isVisible;
         });
         return isVisible;
@@ -91,11 +89,10 @@ class FunkyKd : public RTKernel {
         return interval;
     }
 
-    /// Calls onHit(triangle, t) for the triangles that the ray meets, cell by cell along the ray up
-    /// to tMax, until it returns true. onHit may lower tMax; a hit may lie beyond the cell in which
-    /// it is found.
-    template <typename OnHit>
-    void traverse(const WatertightRay& ray, double& tMax, const OnHit& onHit) const {
+    /// Calls visit(triangles) for the triangles in the cells along the ray up to tMax, until it
+    /// returns true. visit may lower tMax; a hit may lie beyond the cell in which it is found.
+    template <typename Visit>
+    void traverse(const WatertightRay& ray, const double& tMax, const Visit& visit) const {
         struct Entry {
             std::uint32_t node;
             Interval interval;
@@ -132,13 +129,9 @@ class FunkyKd : public RTKernel {
                 index = isFarOnly ? far : near;
                 node = tree_.nodes[index];
             }
-            const std::uint32_t first = node.firstReference();
-            for (std::uint32_t i = first; i < first + node.count(); ++i) {
-                const std::uint32_t triangle = tree_.references[i];
-                if (const auto t = ray.intersect(triangles_[triangle]))
-                    if (onHit(triangle, *t))
-                        return;
-            }
+            for (std::uint32_t i = node.first(); i < node.first() + node.count(); ++i)
+                if (visit(tree_.triangles[i]))
+                    return;
             if (size == 0 || tMax < stack[size - 1].interval.begin)
                 return;
             index = stack[--size].node;
@@ -146,8 +139,7 @@ class FunkyKd : public RTKernel {
         }
     }
 
-    std::uint32_t leafSize_ = 4;
-    std::span<const Triangle> triangles_;
+    std::uint32_t leafSize_ = 12;
     KdTree tree_;
 };
 

@@ -87,9 +87,9 @@ class Builder {
 
   private:
     /// A share of a cell's length that is worth a node of its own when it is empty.
-    static constexpr double MUCH_EMPTY_SPACE = 0.2;
+    static constexpr double MUCH_EMPTY_SPACE = 0.1;
     /// A split must not leave more references than this in the two parts together, per reference.
-    static constexpr double MOST_DUPLICATION = 1.7;
+    static constexpr double MOST_DUPLICATION = 1.4;
 
     /// What remains of a reference on one side of a plane: the box of that part of the triangle,
     /// within the box that it had.
@@ -122,10 +122,17 @@ class Builder {
     }
 
     void appendLeaf(const KernelVector<Reference>& references) {
-        tree_.nodes.push_back(KdNode::leaf(static_cast<std::uint32_t>(tree_.references.size()),
-                                           static_cast<std::uint32_t>(references.size())));
-        for (const Reference& reference : references)
-            tree_.references.push_back(reference.triangle);
+        const std::size_t first = tree_.triangles.size();
+        for (std::size_t i = 0; i < references.size(); i += Triangle4::SIZE) {
+            std::array<std::uint32_t, Triangle4::SIZE> indices;
+            const std::size_t count = std::min(references.size() - i, indices.size());
+            for (std::size_t k = 0; k < count; ++k)
+                indices[k] = references[i + k].triangle;
+            tree_.triangles.emplace_back(triangles_, std::span(indices.data(), count));
+        }
+        tree_.nodes.push_back(
+            KdNode::leaf(static_cast<std::uint32_t>(first),
+                         static_cast<std::uint32_t>(tree_.triangles.size() - first)));
     }
 
     std::optional<Split> chooseSplit(const Bounds& cell,
@@ -204,7 +211,7 @@ KdTree buildKdTree(std::span<const Triangle> triangles, std::uint32_t leafSize) 
     const int depth = static_cast<int>(8 + 1.3 * std::log2(references.size()));
     Builder(tree, triangles, leafSize).build(tree.bounds, std::move(references), depth);
     tree.nodes.shrink_to_fit();
-    tree.references.shrink_to_fit();
+    tree.triangles.shrink_to_fit();
     return tree;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/RTKernel.h"
+#include "kernel/Triangle4.h"
 
 #include <cassert>
 #include <cstdint>
@@ -42,7 +43,7 @@ class KdNode {
     int axis() const { return static_cast<int>(bits_ & 3); }
     float position() const { return position_; }
     std::uint32_t secondChild() const { return bits_ >> 2; }
-    std::uint32_t firstReference() const { return first_; }
+    std::uint32_t first() const { return first_; }
     std::uint32_t count() const { return bits_ >> 2; }
 
   private:
@@ -50,20 +51,20 @@ class KdNode {
 
     union {
         float position_;       ///< inner node: where the plane cuts the axis
-        std::uint32_t first_;  ///< leaf: its first entry in the references
+        std::uint32_t first_;  ///< leaf: index of its first triangles
     };
     std::uint32_t bits_;  ///< axis or LEAF in the lower two, second child or count above
 };
 static_assert(sizeof(KdNode) == 8);
 
-/// A tree over triangles. A leaf refers to all triangles whose boxes meet its cell.
+/// A tree over triangles. A leaf holds all triangles whose boxes meet its cell.
 struct KdTree {
     /// Longest way from the root to a leaf: 8 + 1.3 * log2 of at most 2^32 triangles.
     static constexpr int MAX_DEPTH = 49;
 
     Bounds bounds;
     KernelVector<KdNode> nodes;  ///< the root first; none for a scene without area
-    KernelVector<std::uint32_t> references;
+    KernelVector<Triangle4> triangles;
 };
 
 KdTree buildKdTree(std::span<const Triangle> triangles, std::uint32_t leafSize);
