@@ -74,7 +74,10 @@ void PathTracer::end(const Path& path) const {
     path.sample->value = V3d(sensorResponse_ * path.radiance);
 }
 
-void PathTracer::traceOneByOne(std::span<Sample> samples, RayCounts& counts) const {
+// Flattened, the steps of a path hand it to each other in registers, which saves an eighth of the
+// framework's time (build/framework-cost).
+[[gnu::flatten]] void PathTracer::traceOneByOne(std::span<Sample> samples,
+                                                RayCounts& counts) const {
     for (Sample& sample : samples) {
         Path path = begin(sample);
         do {
