@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 
 namespace bwfirt {
@@ -26,7 +27,7 @@ void Progress::show(int passesDone, double raysPerSecond) {
         return;
     lastShown_ = now;
     const double elapsed = std::chrono::duration<double>(now - start_).count();
-    const auto left = static_cast<long>(elapsed / passesDone * (passes_ - passesDone) + 0.5);
+    const auto left = std::lround(elapsed / passesDone * (passes_ - passesDone));
     std::fprintf(stderr, "%spass %d of %d, %.2f million rays/s, %ld:%02ld:%02ld left", ERASE_LINE,
                  passesDone, passes_, raysPerSecond / 1e6, left / 3600, left / 60 % 60, left % 60);
     std::fflush(stderr);

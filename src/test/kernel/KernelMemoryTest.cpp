@@ -84,9 +84,9 @@ TEST(KernelMemory, IsExactWhileManyThreadsAllocate) {
     KernelMemory::resetPeak();
 #pragma omp parallel num_threads(THREADS)
     {
-        std::vector<void*> blocks;
-        for (int i = 0; i < BLOCKS; ++i)
-            blocks.push_back(RTKernel::kernel_malloc(i % 100));
+        std::vector<void*> blocks(BLOCKS);
+        for (std::size_t i = 0; i < BLOCKS; ++i)
+            blocks[i] = RTKernel::kernel_malloc(i % 100);
         for (void*& block : blocks)
             block = RTKernel::kernel_realloc(block, 200);
 #pragma omp barrier

@@ -5,8 +5,10 @@ import json
 import resource
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from box import box_triangles, write_triangles
 from program import batch_command, complaint, refusal, render, run
 
 SIZES = ['0x0', '0x12', '16x0', '-16x12', '16x-12', '16', '16x', 'x12', 'x', '', '16x12x3', '16X12',
@@ -43,6 +45,9 @@ def test_a_bad_value_of_a_kernel_option_is_wrong_usage(
 
 @pytest.mark.parametrize('program', ['funky-kd'], indirect=True)
 def test_a_kernel_option_reaches_the_kernel_and_the_report(program: Path, folder: Path) -> None:
+    corners = np.random.default_rng(1).uniform(-1, 1, (200, 1, 3))
+    confetti = corners + np.random.default_rng(2).uniform(-0.05, 0.05, (200, 3, 3))
+    write_triangles(folder / 'box.ra2', np.concatenate([box_triangles(), confetti]))
     small = render(program, folder, '--kernel-option', 'leaf-size=1')
     large = render(program, folder, '--kernel-option', 'leaf-size=64')
     assert small['kernel_options'] == {'leaf-size': '1'}
