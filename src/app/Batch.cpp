@@ -2,19 +2,16 @@
 #include "app/Batch.h"
 
 #include "app/Progress.h"
+#include "app/Run.h"
 #include "film/ImageFile.h"
 #include "kernel/KernelInfo.h"
-#include "kernel/KernelMemory.h"
+#include "render/Checkpoint.h"
+#include "render/RayStream.h"
 #include "render/Renderer.h"
-#include "report/RunReport.h"
-#include "report/SystemInfo.h"
 #include "scene/FileIO.h"
 
-#include <omp.h>
-
-#include <chrono>
 #include <csignal>
-#include <iostream>
+#include <cstdio>
 #include <stdexcept>
 
 namespace bwfirt {
@@ -30,128 +27,158 @@ void catchSignals() {
     std::signal(SIGXFSZ, SIG_IGN);
 }
 
-/// Seconds that a call takes.
-template <typename Call>
-double secondsOf(const Call& call) {
-    const auto start = std::chrono::steady_clock::now();
-    call();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 void requireOutputsWritable(const Settings& settings) {
     if (!settings.output.empty()) {
         requireWritable(withEnding(settings.output, ".exr"));
         requireWritable(withEnding(settings.output, ".png"));
     }
-    if (!settings.report.empty())
-        requireWritable(settings.report);
+    for (const auto& path : {settings.report, settings.checkpoint, settings.record})
+        if (!path.empty())
+            requireWritable(path);
+    if (settings.reference)
+        requireWritable(settings.camera);
 }
 
-std::unique_ptr<Integrator> makeIntegrator(const Settings& settings, const Scene& scene,
-                                           const Camera& camera, const RTKernel& kernel) {
-    if (settings.view)
-        return std::make_unique<FalseColour>(*settings.view, scene, kernel, camera, settings.width,
-                                             settings.height);
-    return std::make_unique<PathTracer>(scene, kernel, camera, settings.width, settings.height,
-                                        settings.inFlight);
-}
-
-void renderPasses(const Settings& settings, const Integrator& integrator, Film& film,
-                  RunReport& report) {
-    const Renderer renderer(integrator, settings.seed, settings.threads);
-    Progress progress(settings.passes);
-    while (film.passes() < settings.passes && endAfterThisPass == 0) {
-        report.secondsRender += secondsOf([&] { report.rays += renderer.renderPass(film); });
-        progress.show(film.passes(), report.raysPerSecond());
-    }
-    if (film.passes() == 0)
-        throw std::runtime_error("ended by a signal before the first pass");
-    if (film.passes() < settings.passes)
-        report.warnings.push_back("ended by a signal after " + std::to_string(film.passes()) +
-                                  " of " + std::to_string(settings.passes) + " passes");
-}
-
-/// A warning where the process grew by much more than the counting allocators saw.
-void checkKernelMemory(const ProcessMemory& before, RunReport& report) {
-    const std::uint64_t peak = processMemory().bytesPeak;
-    const std::uint64_t grown = peak > before.bytesPeak ? peak - before.bytesNow : 0;
-    const std::uint64_t counted = report.kernelBytesPeak;
-    constexpr std::uint64_t ALLOWANCE = 16 << 20;
-    if (grown > counted + counted / 4 + ALLOWANCE)
-        report.warnings.push_back(
-            "the process grew by " + std::to_string(grown / 1000000) +
-            " MB since the kernel was initialised, but the kernel's allocators counted only " +
-            std::to_string(counted / 1000000) + " MB: the kernel's memory figures are too small");
-}
-
-RunReport describe(const Settings& settings, const Scene& scene, const Camera& camera) {
-    RunReport report;
+RunIdentity identityOf(const Settings& settings, const Scene& scene, const Camera& camera) {
+    std::string options;
     for (const auto& [name, value] : settings.kernelOptions)
-        report.kernelOptions.push_back({name, value, ""});
-    report.scene = settings.scene.string();
-    report.camera = settings.camera.string();
-    report.view = settings.viewName;
-    report.triangles = scene.triangles.size();
-    report.trianglesBytes = scene.triangles.size() * sizeof(Triangle);
-    report.threads = settings.threads;
-    report.inFlight = settings.inFlight;
-    report.width = settings.width;
-    report.height = settings.height;
-    report.seed = settings.seed;
-    report.referenceAverageIntensity = camera.referenceAverageIntensity;
-    report.warnings = sceneWarnings(scene);
-    return report;
+        options += name + "=" + value + "\n";
+    return {checksumOf(scene), checksumOf(camera), settings.seed,      settings.width,
+            settings.height,   KernelInfo::NAME,   std::move(options), settings.viewName};
+}
+
+/// Renders a film pass by pass, and takes down what it took.
+class Rendering {
+  public:
+    Rendering(const Settings& settings, Run& run, const Camera& camera)
+        : settings_(settings), run_(run), camera_(camera), film_(settings.width, settings.height) {
+        if (settings.checkpoint.empty())
+            return;
+        checkpoint_.emplace(settings.checkpoint, identityOf(settings, run.scene(), camera));
+        checkpoint_->load(film_, run.report.rays, run.report.secondsRender);
+        if (film_.passes() > settings.passes)
+            throw std::runtime_error(
+                settings.checkpoint.string() + ": holds " + std::to_string(film_.passes()) +
+                " passes already, more than --passes " + std::to_string(settings.passes));
+    }
+
+    const Film& film() const { return film_; }
+
+    void renderPasses() {
+        if (settings_.view) {
+            renderPasses(FalseColour(*settings_.view, run_.scene(), run_.kernel(), camera_,
+                                     settings_.width, settings_.height));
+            return;
+        }
+        const PathTracer pathTracer(run_.scene(), run_.kernel(), camera_, settings_.width,
+                                    settings_.height, settings_.inFlight);
+        if (settings_.record.empty())
+            renderPasses(pathTracer);
+        else
+            record(pathTracer);
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::seconds SAVING_INTERVAL{2};
+
+    /// @param isEnough asked after each pass
+    template <typename IsEnough>
+    void renderPasses(const Integrator& integrator, int threads, const IsEnough& isEnough) {
+        const Renderer renderer(integrator, settings_.seed, threads);
+        RunReport& report = run_.report;
+        Progress progress(settings_.passes - film_.passes());
+        const int passesBefore = film_.passes();
+        while (film_.passes() < settings_.passes && endAfterThisPass == 0 && !isEnough()) {
+            report.secondsRender += secondsOf([&] { report.rays += renderer.renderPass(film_); });
+            progress.show(film_.passes() - passesBefore, report.raysPerSecond());
+            if (checkpoint_ && Clock::now() - lastSaved_ >= SAVING_INTERVAL)
+                save();
+        }
+        if (film_.passes() == 0)
+            throw std::runtime_error("ended by a signal before the first pass");
+        if (checkpoint_ && film_.passes() > passesSaved_)
+            save();
+        if (film_.passes() < settings_.passes && endAfterThisPass != 0)
+            report.warnings.push_back("ended by a signal after " + std::to_string(film_.passes()) +
+                                      " of " + std::to_string(settings_.passes) + " passes");
+    }
+
+    void renderPasses(const Integrator& integrator) {
+        renderPasses(integrator, settings_.threads, [] { return false; });
+    }
+
+    /// On one thread, since the order of the rays is part of the stream.
+    void record(const PathTracer& pathTracer) {
+        RayStreamWriter stream(settings_.record, run_.scene().triangles, KernelInfo::NAME,
+                               settings_.raysToRecord);
+        run_.report.threads = 1;
+        renderPasses(RecordingPathTracer(pathTracer, stream), 1, [&] { return stream.isFull(); });
+        stream.finish();
+        run_.report.warnings.push_back(
+            "the rays were recorded meanwhile: measure speed without --record");
+    }
+
+    void save() {
+        checkpoint_->save(film_, run_.report.rays, run_.report.secondsRender);
+        lastSaved_ = Clock::now();
+        passesSaved_ = film_.passes();
+    }
+
+    const Settings& settings_;
+    Run& run_;
+    const Camera& camera_;
+    Film film_;
+    std::optional<Checkpoint> checkpoint_;  ///< nothing without --checkpoint
+    Clock::time_point lastSaved_{};
+    int passesSaved_ = 0;
+};
+
+std::string format(const char* pattern, double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, pattern, value);
+    return text;
+}
+
+void setReference(const Settings& settings, const RunReport& report) {
+    writeReference(
+        settings.camera,
+        referenceLine(report.averageIntensity,
+                      std::string(KernelInfo::NAME) + ", " + std::to_string(report.width) + "x" +
+                          std::to_string(report.height) + ", " + std::to_string(report.passes) +
+                          " passes, seed " + std::to_string(report.seed) + "; standard error " +
+                          format("%.1e", report.standardError.x)));
 }
 
 }  // namespace
 
-void runBatch(const Settings& settings, std::unique_ptr<RTKernel> givenKernel) {
+void runBatch(const Settings& settings, std::unique_ptr<RTKernel> kernel) {
     catchSignals();
     requireOutputsWritable(settings);
-    omp_set_num_threads(settings.threads);  // for the kernel, which may build in parallel
-
-    Scene scene;
-    std::unique_ptr<RTKernel> kernel = std::move(givenKernel);  // destroyed before its triangles
     Camera camera;
-    const double secondsLoad = secondsOf([&] {
-        camera = readCamera(settings.camera);
-        scene = readScene(settings.scene);
-    });
+    const double secondsLoadCamera = secondsOf([&] { camera = readCamera(settings.camera); });
+    Run run(settings, std::move(kernel));
+    run.report.secondsLoad += secondsLoadCamera;
+    run.report.referenceAverageIntensity = camera.referenceAverageIntensity;
     const bool needsLights = !settings.view || *settings.view == View::QUERIES;
-    if (scene.lights.empty() && needsLights)
+    if (run.scene().lights.empty() && needsLights)
         throw std::runtime_error(settings.scene.string() +
                                  ": has no lights, and light transport needs one");
 
-    RunReport report = describe(settings, scene, camera);
-    report.secondsLoad = secondsLoad;
-    Film film(settings.width, settings.height);
+    Rendering rendering(settings, run, camera);
+    run.initializeKernel();
+    rendering.renderPasses();
+    run.measureKernelMemory();
 
-    const ProcessMemory before = processMemory();
-    report.secondsInitialize = secondsOf([&] { kernel->kernelInitialize(scene.triangles); });
-    renderPasses(settings, *makeIntegrator(settings, scene, camera, *kernel), film, report);
-
-    report.kernelBytesPeak = KernelMemory::bytesPeak();
-    report.kernelBytesFinal = KernelMemory::bytesNow();
-    checkKernelMemory(before, report);
-    kernel.reset();
-    report.kernelBytesLeaked = KernelMemory::bytesNow();
-    if (report.kernelBytesLeaked > 0)
-        report.warnings.push_back("the kernel leaked " + std::to_string(report.kernelBytesLeaked) +
-                                  " bytes");
-    report.processBytesPeak = processMemory().bytesPeak;
-    report.passes = film.passes();
-    report.averageIntensity = film.averageIntensity();
-    report.standardError = film.standardError();
-
+    const Film& film = rendering.film();
+    run.report.passes = film.passes();
+    run.report.averageIntensity = film.averageIntensity();
+    run.report.standardError = film.standardError();
     if (!settings.output.empty())
         writeImages(settings.output, film);
-    if (!settings.report.empty())
-        writeFileAtomically(settings.report, reportAsJson(report));
-    for (const std::string& warning : report.warnings)
-        std::cerr << "bwfirt-" << KernelInfo::NAME << ": warning: " << warning << "\n";
-    std::cout << reportAsText(report) << std::flush;
-    if (!std::cout)
-        throw std::runtime_error("standard output: cannot be written");
+    if (settings.reference)
+        setReference(settings, run.report);
+    run.finish();
 }
 
 }  // namespace bwfirt

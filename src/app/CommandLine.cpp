@@ -117,6 +117,34 @@ std::optional<Settings> parseCommandLine(int argc, const char* const* argv, RTKe
         ->check(CLI::Range(1, PathTracer::MAX_IN_FLIGHT))
         ->excludes("--view")
         ->type_name("N");
+    CLI::Option* checkpoint =
+        app.add_option("--checkpoint", settings.checkpoint,
+                       "keeps the sums of all passes there, and goes on from them if it exists")
+            ->type_name("FILE");
+    app.add_flag("--reference", settings.reference,
+                 "writes the average intensity into the camera file as its reference");
+    CLI::Option* record = app.add_option("--record", settings.record,
+                                         "records the rays of the path tracer and this kernel's "
+                                         "answers while it renders, on one thread")
+                              ->excludes("--view", "--in-flight")
+                              ->excludes(checkpoint)
+                              ->type_name("FILE");
+    app.add_option("--rays", settings.raysToRecord,
+                   "rendering ends with the pass in which so many are recorded, default 2000000")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
+        ->needs(record)
+        ->type_name("N");
+    CLI::Option* replay =
+        app.add_option("--replay", settings.replay,
+                       "asks the kernel the recorded rays alone: its speed without the renderer, "
+                       "and a check of every answer")
+            ->excludes("--view", "--output", "--reference")
+            ->excludes(checkpoint, record)
+            ->type_name("FILE");
+    app.add_option("--only", settings.only,
+                   "replays the N-th ray only, from 0, and prints both answers")
+        ->needs(replay)
+        ->type_name("N");
     app.add_option("--kernel-option", kernelOptions,
                    "sets an option of the kernel; may be repeated")
         ->type_name("NAME=VALUE")
@@ -137,7 +165,7 @@ std::optional<Settings> parseCommandLine(int argc, const char* const* argv, RTKe
         setKernelOption(kernel, assignment, settings);
     if (!settings.viewName.empty())
         settings.view = VIEWS.at(settings.viewName);
-    if (settings.batch && settings.camera.empty())
+    if (settings.batch && settings.camera.empty() && settings.replay.empty())
         throw UsageError("--batch needs --camera FILE");
     return settings;
 }

@@ -23,10 +23,16 @@ struct Settings {
     int height = 480;
     std::uint64_t seed = 1;
     int inFlight = 1;
-    std::optional<View> view;      ///< nothing: light transport
-    std::string viewName;          ///< as on the command line
-    std::filesystem::path output;  ///< empty: no images
-    std::filesystem::path report;  ///< empty: no JSON
+    std::optional<View> view;          ///< nothing: light transport
+    std::string viewName;              ///< as on the command line
+    std::filesystem::path output;      ///< empty: no images
+    std::filesystem::path report;      ///< empty: no JSON
+    std::filesystem::path checkpoint;  ///< empty: none
+    bool reference = false;            ///< the camera file gets the average intensity
+    std::filesystem::path record;      ///< empty: no rays are recorded
+    std::uint64_t raysToRecord = 2000000;
+    std::filesystem::path replay;       ///< empty: no rays are replayed
+    std::optional<std::uint64_t> only;  ///< index of a single ray to replay
     std::vector<std::pair<std::string, std::string>> kernelOptions;
 };
 

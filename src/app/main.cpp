@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "app/Batch.h"
 #include "app/CommandLine.h"
+#include "app/ReplayRun.h"
 #include "kernel/KernelInfo.h"
 
 #include <iostream>
@@ -24,6 +25,10 @@ int main(int argc, char** argv) {
         const std::optional<Settings> settings = parseCommandLine(argc, argv, *kernel);
         if (!settings)
             return DONE;
+        if (!settings->replay.empty()) {
+            runReplay(*settings, std::move(kernel));
+            return DONE;
+        }
         if (!settings->batch)
             throw UsageError("this build has no viewer; use --batch and --camera FILE");
         runBatch(*settings, std::move(kernel));

@@ -18,24 +18,24 @@ Film::Film(int width, int height) : width_(width), height_(height) {
                                  std::to_string(height) + " takes " + std::to_string(bytes) +
                                  " bytes, but only " + std::to_string(available) +
                                  " bytes of memory are left");
-    total_.assign(pixels, V3d(0));
-    shard_.assign(pixels, V3d(0));
+    sums_.total.assign(pixels, V3d(0));
+    sums_.shard.assign(pixels, V3d(0));
 }
 
 void Film::endPass(const V3d& passAverage) {
-    passAverages_.push_back(passAverage);
+    sums_.passAverages.push_back(passAverage);
     if (passes() % PASSES_PER_SHARD != 0)
         return;
-    for (std::size_t i = 0; i < total_.size(); ++i)
-        total_[i] += shard_[i];
-    shard_.assign(shard_.size(), V3d(0));
+    for (std::size_t i = 0; i < sums_.total.size(); ++i)
+        sums_.total[i] += sums_.shard[i];
+    sums_.shard.assign(sums_.shard.size(), V3d(0));
 }
 
 V3d Film::mean(int x, int y) const {
     if (passes() == 0)
         return V3d(0);
     const std::size_t i = index(x, y);
-    return (total_[i] + shard_[i]) / passes();
+    return (sums_.total[i] + sums_.shard[i]) / passes();
 }
 
 V3d Film::averageIntensity() const {
@@ -43,16 +43,16 @@ V3d Film::averageIntensity() const {
     for (int y = 0; y < height_; ++y)
         for (int x = 0; x < width_; ++x)
             sum += mean(x, y);
-    return sum / static_cast<double>(total_.size());
+    return sum / static_cast<double>(sums_.total.size());
 }
 
 V3d Film::standardError() const {
     const auto n = static_cast<double>(passes());
     V3d mean(0);
-    for (const V3d& average : passAverages_)
+    for (const V3d& average : sums_.passAverages)
         mean += average / n;
     V3d squares(0);
-    for (const V3d& average : passAverages_)
+    for (const V3d& average : sums_.passAverages)
         squares += (average - mean) * (average - mean);
     const V3d variance = squares / (n - 1) / n;
     return {std::sqrt(variance.x), std::sqrt(variance.y), std::sqrt(variance.z)};

@@ -4,9 +4,17 @@
 #include "math/Vector.h"
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace bwfirt {
+
+/// What a film holds, to be kept and put back.
+struct FilmSums {
+    std::vector<V3d> total;         ///< of the finished shards, pixel by pixel
+    std::vector<V3d> shard;         ///< of the shard under way
+    std::vector<V3d> passAverages;  ///< one a pass
+};
 
 /// The sums of all passes over an image, in double precision.
 ///
@@ -22,11 +30,11 @@ class Film {
 
     int width() const { return width_; }
     int height() const { return height_; }
-    int passes() const { return static_cast<int>(passAverages_.size()); }
+    int passes() const { return static_cast<int>(sums_.passAverages.size()); }
 
     /// Adds a pixel's value to the pass under way. Each pixel gets one value a pass; threads may
     /// add different pixels at the same time.
-    void add(int x, int y, const V3d& value) { shard_[index(x, y)] += value; }
+    void add(int x, int y, const V3d& value) { sums_.shard[index(x, y)] += value; }
 
     /// Ends the pass under way, in which the pixels had this average.
     void endPass(const V3d& passAverage);
@@ -41,6 +49,12 @@ class Film {
     /// before the second pass.
     V3d standardError() const;
 
+    /// Between two passes.
+    const FilmSums& sums() const { return sums_; }
+
+    /// Goes on from the sums of a film of the same size.
+    void restore(FilmSums sums) { sums_ = std::move(sums); }
+
   private:
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
@@ -49,9 +63,7 @@ class Film {
 
     int width_;
     int height_;
-    std::vector<V3d> total_;         ///< of the finished shards
-    std::vector<V3d> shard_;         ///< of the shard under way
-    std::vector<V3d> passAverages_;  ///< one a pass
+    FilmSums sums_;
 };
 
 }  // namespace bwfirt

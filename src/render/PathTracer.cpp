@@ -74,23 +74,53 @@ void PathTracer::end(const Path& path) const {
     path.sample->value = V3d(sensorResponse_ * path.radiance);
 }
 
+template <typename Intersect, typename IsVisible>
+void PathTracer::follow(Sample& sample, const Intersect& intersect,
+                        const IsVisible& isVisible) const {
+    Path path = begin(sample);
+    do {
+        if (!arrive(path, intersect(path)))
+            break;
+        if (path.contribution > 0 && isVisible(path))
+            path.radiance += path.contribution;
+    } while (scatter(path));
+    end(path);
+}
+
 // Flattened, the steps of a path hand it to each other in registers, which saves an eighth of the
 // framework's time (build/framework-cost).
 [[gnu::flatten]] void PathTracer::traceOneByOne(std::span<Sample> samples,
                                                 RayCounts& counts) const {
     for (Sample& sample : samples) {
-        Path path = begin(sample);
-        do {
-            ++counts.intersect;
-            if (!arrive(path, kernel_.kernelIntersectGeometry(path.ray)))
-                break;
-            if (path.contribution > 0) {
+        follow(
+            sample,
+            [&](const Path& path) {
+                ++counts.intersect;
+                return kernel_.kernelIntersectGeometry(path.ray);
+            },
+            [&](const Path& path) {
                 ++counts.visibility;
-                if (kernel_.kernelVisibility(path.x, path.y))
-                    path.radiance += path.contribution;
-            }
-        } while (scatter(path));
-        end(path);
+                return kernel_.kernelVisibility(path.x, path.y);
+            });
+    }
+}
+
+void PathTracer::trace(std::span<Sample> samples, RayCounts& counts, RayListener& listener) const {
+    for (Sample& sample : samples) {
+        follow(
+            sample,
+            [&](const Path& path) {
+                ++counts.intersect;
+                const std::optional<Hit> hit = kernel_.kernelIntersectGeometry(path.ray);
+                listener.intersected(path.ray, path.bounce, hit);
+                return hit;
+            },
+            [&](const Path& path) {
+                ++counts.visibility;
+                const bool isVisible = kernel_.kernelVisibility(path.x, path.y);
+                listener.connected(path.x, path.y, path.bounce, isVisible);
+                return isVisible;
+            });
     }
 }
 

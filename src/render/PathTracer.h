@@ -12,6 +12,14 @@
 
 namespace bwfirt {
 
+/// Is told what a path tracer asked, in this order, and what the kernel answered.
+class RayListener {
+  public:
+    virtual ~RayListener() = default;
+    virtual void intersected(const Ray& ray, int bounce, const std::optional<Hit>& hit) = 0;
+    virtual void connected(const V3f& x, const V3f& y, int bounce, bool isVisible) = 0;
+};
+
 /// Path tracing with next event estimation: at each vertex of a path a point on the lights is
 /// chosen and connected by V, then the path goes on into a random direction, which h follows
 /// (Veach: Robust Monte Carlo Methods for Light Transport Simulation, 1997; Pharr, Jakob,
@@ -32,6 +40,9 @@ class PathTracer : public Integrator {
                int height, int inFlight);
 
     void trace(std::span<Sample> samples, RayCounts& counts) const override;
+
+    /// The same ray by ray, with somebody who listens.
+    void trace(std::span<Sample> samples, RayCounts& counts, RayListener& listener) const;
 
   private:
     /// A path between two questions to the kernel.
@@ -56,6 +67,11 @@ class PathTracer : public Integrator {
     bool scatter(Path& path) const;
 
     void end(const Path& path) const;
+
+    /// Takes a path from its beginning to its end.
+    /// @param intersect h of the path's ray; isVisible V of its connection
+    template <typename Intersect, typename IsVisible>
+    void follow(Sample& sample, const Intersect& intersect, const IsVisible& isVisible) const;
 
     void traceOneByOne(std::span<Sample> samples, RayCounts& counts) const;
     void traceInFlight(std::span<Sample> samples, RayCounts& counts) const;

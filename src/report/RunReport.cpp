@@ -28,6 +28,44 @@ Json options(const std::vector<KernelOption>& set) {
     return object;
 }
 
+Json replayAsJson(const ReplayResult& replay) {
+    Json bounces = Json::array();
+    for (const BounceRate& bounce : replay.byBounce)
+        bounces.push_back({{"first", bounce.first},
+                           {"last", bounce.last},
+                           {"intersect", bounce.counts.intersect},
+                           {"visibility", bounce.counts.visibility},
+                           {"mixed_per_second", bounce.mixed.perSecond}});
+    const ReplayAnswers& answers = replay.answers;
+    const auto rays = static_cast<double>(replay.counts.intersect + replay.counts.visibility);
+    Json counts, perMillion, examples;
+    for (std::size_t kind = 0; kind < DIFFERENCE_NAMES.size(); ++kind) {
+        const char* name = DIFFERENCE_NAMES[kind];
+        counts[name] = answers.counts[kind];
+        perMillion[name] = static_cast<double>(answers.counts[kind]) / rays * 1e6;
+        if (!answers.examples[kind].empty())
+            examples[name] = answers.examples[kind];
+    }
+    counts["max_relative_distance_error"] = answers.maxRelativeDistanceError;
+    Json json = {
+        {"recorded_by", replay.recordedBy},
+        {"rays",
+         {{"intersect", replay.counts.intersect}, {"visibility", replay.counts.visibility}}},
+        {"intersect_per_second", replay.intersect.perSecond},
+        {"visibility_per_second", replay.visibility.perSecond},
+        {"mixed_per_second", replay.mixed.perSecond},
+        {"measurements",
+         {{"intersect_per_second", replay.intersect.measurements},
+          {"visibility_per_second", replay.visibility.measurements},
+          {"mixed_per_second", replay.mixed.measurements}}},
+        {"by_bounce", bounces},
+        {"answers", counts},
+        {"answers_per_million", perMillion},
+        {"examples", examples.is_null() ? Json::object() : examples},
+    };
+    return json;
+}
+
 Json asJson(const RunReport& report) {
     const SystemInfo system = systemInfo();
     Json json = {
@@ -81,6 +119,8 @@ Json asJson(const RunReport& report) {
     };
     if (!report.view.empty())
         json["view"] = report.view;
+    if (report.replay)
+        json["replay"] = replayAsJson(*report.replay);
     return json;
 }
 
@@ -100,7 +140,7 @@ std::string asText(const std::string& key, const Json& value) {
         return format("%.3f s", value.get<double>());
     if (key.ends_with("_bytes"))
         return format("%.3f MB", value.get<double>() / 1e6) + " (" + value.dump() + ")";
-    if (key == "per_second")
+    if (key.ends_with("per_second") && value.is_number())
         return format("%.4f million", value.get<double>() / 1e6);
     if (!value.is_array())
         return value.dump();
@@ -108,7 +148,7 @@ std::string asText(const std::string& key, const Json& value) {
     for (const Json& element : value) {
         if (!text.empty())
             text += ' ';
-        text += asText("", element);
+        text += asText(key, element);
     }
     return text;
 }

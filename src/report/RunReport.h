@@ -4,6 +4,7 @@
 #include "kernel/KernelOption.h"
 #include "math/Vector.h"
 #include "render/RayCounts.h"
+#include "render/Replay.h"
 
 #include <cstdint>
 #include <optional>
@@ -41,6 +42,8 @@ struct RunReport {
     V3d averageIntensity{0};
     V3d standardError{0};  ///< NaN after a single pass
     std::optional<V3d> referenceAverageIntensity;
+
+    std::optional<ReplayResult> replay;
 
     std::vector<std::string> warnings;
 

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace bwfirt {
 
@@ -25,6 +26,12 @@ Camera readCamera(const std::filesystem::path& path);
 
 /// Read again, the file gives the same camera to the bit.
 void writeCamera(const std::filesystem::path& path, const Camera& camera);
+
+/// The reference as a line of a camera file, with a comment behind it.
+std::string referenceLine(const V3d& averageIntensity, const std::string& comment);
+
+/// Replaces the reference's line in a camera file, or appends it; the rest stays as it is.
+void writeReference(const std::filesystem::path& path, const std::string& line);
 
 /// The rays of a camera for an image of a given size: what stays the same from pixel to pixel.
 class CameraRays {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -153,6 +154,25 @@ void writeCamera(const std::filesystem::path& path, const Camera& camera) {
     if (camera.referenceAverageIntensity)
         text += "referenceAverageIntensity (" + format(*camera.referenceAverageIntensity) + ")\n";
     writeFileAtomically(path, text);
+}
+
+std::string referenceLine(const V3d& averageIntensity, const std::string& comment) {
+    return "referenceAverageIntensity (" + format(averageIntensity) + ")  # " + comment + "\n";
+}
+
+void writeReference(const std::filesystem::path& path, const std::string& line) {
+    readCamera(path);
+    std::istringstream old(readTextFile(path));
+    std::string text;
+    bool isReplaced = false;
+    for (std::string oldLine; std::getline(old, oldLine);) {
+        std::string key;
+        std::istringstream(oldLine) >> key;
+        const bool isReference = key == "referenceAverageIntensity";
+        text += isReference ? line : oldLine + "\n";
+        isReplaced = isReplaced || isReference;
+    }
+    writeFileAtomically(path, isReplaced ? text : text + line);
 }
 
 }  // namespace bwfirt

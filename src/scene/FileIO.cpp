@@ -27,57 +27,6 @@ namespace {
     fail(path, what + ": " + std::generic_category().message(errno));
 }
 
-/// A new, empty file beside `path` that is removed again unless it was renamed to `path`.
-class TemporaryFile {
-  public:
-    explicit TemporaryFile(const fs::path& path) : target_(path) {
-        if (fs::is_directory(path))
-            fail(path, "cannot be written: is a folder");
-        name_ = path.string() + ".XXXXXX";
-        descriptor_ = mkstemp(name_.data());
-        if (descriptor_ < 0)
-            failWithErrno(path, "cannot be written");
-    }
-
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-    ~TemporaryFile() {
-        if (descriptor_ >= 0)
-            close(descriptor_);
-        if (!name_.empty())
-            unlink(name_.c_str());
-    }
-
-    void write(std::string_view content) {
-        while (!content.empty()) {
-            const ssize_t written = ::write(descriptor_, content.data(), content.size());
-            if (written < 0 && errno == EINTR)
-                continue;
-            if (written < 0)
-                failWithErrno(target_, "cannot be written");
-            content.remove_prefix(static_cast<std::size_t>(written));
-        }
-    }
-
-    void renameToTarget() {
-        const mode_t mask = umask(0);
-        umask(mask);
-        if (fchmod(descriptor_, 0666 & ~mask) != 0 || fsync(descriptor_) != 0)
-            failWithErrno(target_, "cannot be written");
-        const int closed = close(descriptor_);
-        descriptor_ = -1;
-        if (closed != 0 || rename(name_.c_str(), target_.c_str()) != 0)
-            failWithErrno(target_, "cannot be written");
-        name_.clear();
-    }
-
-  private:
-    fs::path target_;
-    std::string name_;
-    int descriptor_ = -1;
-};
-
 }  // namespace
 
 std::uintmax_t inputFileSize(const fs::path& path) {
@@ -106,20 +55,73 @@ std::string readTextFile(const fs::path& path) {
     if (size > availableMemory())
         fail(path, "its " + std::to_string(size) + " bytes are more than the memory that is left");
     std::string content(size, '\0');
-    std::ifstream file(path, std::ios::binary);
-    if (!file.read(content.data(), static_cast<std::streamsize>(size)))
-        fail(path, "cannot be read to its end");
+    readBytes(path, content.data(), size);
     return content;
 }
 
+void readBytes(const fs::path& path, void* bytes, std::uintmax_t size, std::uintmax_t offset) {
+    std::ifstream file(path, std::ios::binary);
+    file.seekg(static_cast<std::streamoff>(offset));
+    if (!file.read(static_cast<char*>(bytes), static_cast<std::streamsize>(size)))
+        fail(path, "cannot be read to its end");
+}
+
+AtomicFile::AtomicFile(const fs::path& path) : target_(path) {
+    if (fs::is_directory(path))
+        fail(path, "cannot be written: is a folder");
+    name_ = path.string() + ".XXXXXX";
+    descriptor_ = mkstemp(name_.data());
+    if (descriptor_ < 0)
+        failWithErrno(path, "cannot be written");
+}
+
+AtomicFile::~AtomicFile() {
+    if (descriptor_ >= 0)
+        close(descriptor_);
+    if (!name_.empty())
+        unlink(name_.c_str());
+}
+
+void AtomicFile::write(std::string_view content) {
+    while (!content.empty()) {
+        const ssize_t written = ::write(descriptor_, content.data(), content.size());
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written < 0)
+            failWithErrno(target_, "cannot be written");
+        content.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+void AtomicFile::overwriteBeginning(std::string_view content) {
+    const off_t end = lseek(descriptor_, 0, SEEK_CUR);
+    if (end < 0 || lseek(descriptor_, 0, SEEK_SET) < 0)
+        failWithErrno(target_, "cannot be written");
+    write(content);
+    if (lseek(descriptor_, end, SEEK_SET) < 0)
+        failWithErrno(target_, "cannot be written");
+}
+
+void AtomicFile::commit() {
+    const mode_t mask = umask(0);
+    umask(mask);
+    if (fchmod(descriptor_, 0666 & ~mask) != 0 || fsync(descriptor_) != 0)
+        failWithErrno(target_, "cannot be written");
+    const int closed = close(descriptor_);
+    descriptor_ = -1;
+    if (closed != 0 || rename(name_.c_str(), target_.c_str()) != 0)
+        failWithErrno(target_, "cannot be written");
+    name_.clear();
+}
+
 void requireWritable(const fs::path& path) {
-    TemporaryFile probe(path);
+    AtomicFile probe(path);
 }
 
 void writeFileAtomically(const fs::path& path, std::string_view content) {
-    TemporaryFile file(path);
+    AtomicFile file(path);
     file.write(content);
-    file.renameToTarget();
+    file.commit();
 }
 
 std::uintmax_t availableMemory() {

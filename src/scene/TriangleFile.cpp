@@ -3,7 +3,6 @@
 #include "scene/Scene.h"
 
 #include <bit>
-#include <fstream>
 #include <limits>
 #include <new>
 #include <stdexcept>
@@ -32,10 +31,7 @@ std::vector<Triangle> readTriangles(const std::filesystem::path& path) {
         fail(tooLarge);
     try {
         std::vector<Triangle> triangles(count);
-        std::ifstream file(path, std::ios::binary);
-        if (!file.read(reinterpret_cast<char*>(triangles.data()),
-                       static_cast<std::streamsize>(bytes)))
-            fail("cannot be read to its end");
+        readBytes(path, triangles.data(), bytes);
         return triangles;
     } catch (const std::bad_alloc&) {
         throw std::runtime_error(path.string() + ": " + tooLarge);

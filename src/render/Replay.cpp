@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "render/Replay.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <memory>
+
+namespace bwfirt {
+
+namespace {
+
+constexpr int MEASUREMENTS = 3;
+constexpr double SECONDS_PER_MEASUREMENT = 1;
+constexpr double TIE_DISTANCE = 1e-5;
+
+/// Questions that a thread takes at a time: enough of them to outweigh the taking.
+constexpr std::size_t CHUNK = 4096;
+
+constexpr std::array<std::pair<int, int>, 5> BOUNCES = {
+    {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {4, std::numeric_limits<std::uint16_t>::max()}}};
+
+/// A measurement takes whole sweeps of all `count` questions: calls ask(begin, end) for chunks of
+/// them, which the threads share.
+template <typename Ask>
+Rate measure(std::size_t count, int threads, const Ask& ask) {
+    using Clock = std::chrono::steady_clock;
+    const auto sweep = [&] {
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+        for (std::size_t begin = 0; begin < count; begin += CHUNK)
+            ask(begin, std::min(begin + CHUNK, count));
+    };
+    Rate rate;
+    if (count == 0)
+        return rate;
+    sweep();  // to warm up
+    for (int i = 0; i < MEASUREMENTS; ++i) {
+        std::size_t sweeps = 0;
+        double seconds = 0;
+        const Clock::time_point start = Clock::now();
+        do {
+            sweep();
+            ++sweeps;
+            seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        } while (seconds < SECONDS_PER_MEASUREMENT);
+        rate.measurements.push_back(static_cast<double>(count * sweeps) / seconds);
+    }
+    std::vector<double> sorted = rate.measurements;
+    std::sort(sorted.begin(), sorted.end());
+    rate.perSecond = sorted[sorted.size() / 2];
+    return rate;
+}
+
+/// The same questions apart, and how many of them are among the first records.
+struct Questions {
+    explicit Questions(std::span<const RayRecord> records) : mixed(records) {
+        for (const RayRecord& record : records) {
+            before.push_back({rays.size(), segments.size()});
+            if (record.question == RayRecord::INTERSECT)
+                rays.push_back(record.ray());
+            else
+                segments.push_back({record.a, record.b});
+        }
+        before.push_back({rays.size(), segments.size()});
+    }
+
+    std::span<const RayRecord> mixed;
+    std::vector<Ray> rays;
+    std::vector<RTKernel::Segment> segments;
+    std::vector<RayCounts> before;  ///< each of `mixed`, and its end
+};
+
+/// Asks the questions from `begin` to `end` and forgets the answers.
+class Asker {
+  public:
+    virtual ~Asker() = default;
+    virtual void intersect(std::size_t begin, std::size_t end) const = 0;
+    virtual void visibility(std::size_t begin, std::size_t end) const = 0;
+    virtual void mixed(std::size_t begin, std::size_t end) const = 0;
+};
+
+class OneByOne : public Asker {
+  public:
+    OneByOne(const RTKernel& kernel, const Questions& questions)
+        : kernel_(kernel), questions_(questions) {}
+
+    void intersect(std::size_t begin, std::size_t end) const override {
+        for (std::size_t i = begin; i < end; ++i)
+            kernel_.kernelIntersectGeometry(questions_.rays[i]);
+    }
+
+    void visibility(std::size_t begin, std::size_t end) const override {
+        for (std::size_t i = begin; i < end; ++i)
+            kernel_.kernelVisibility(questions_.segments[i].x, questions_.segments[i].y);
+    }
+
+    void mixed(std::size_t begin, std::size_t end) const override {
+        for (const RayRecord& record : questions_.mixed.subspan(begin, end - begin)) {
+            if (record.question == RayRecord::INTERSECT)
+                kernel_.kernelIntersectGeometry(record.ray());
+            else
+                kernel_.kernelVisibility(record.a, record.b);
+        }
+    }
+
+  private:
+    const RTKernel& kernel_;
+    const Questions& questions_;
+};
+
+class InFlight : public Asker {
+  public:
+    InFlight(const RTKernel& kernel, const Questions& questions, int inFlight)
+        : kernel_(kernel), questions_(questions), size_(static_cast<std::size_t>(inFlight)) {}
+
+    void intersect(std::size_t begin, std::size_t end) const override {
+        std::array<std::optional<Hit>, PathTracer::MAX_IN_FLIGHT> hits;
+        const std::span rays(questions_.rays);
+        for (std::size_t i = begin; i < end; i += size_) {
+            const std::size_t count = std::min(size_, end - i);
+            kernel_.kernelIntersectMany(rays.subspan(i, count), {hits.data(), count});
+        }
+    }
+
+    void visibility(std::size_t begin, std::size_t end) const override {
+        std::array<bool, PathTracer::MAX_IN_FLIGHT> visible;
+        const std::span segments(questions_.segments);
+        for (std::size_t i = begin; i < end; i += size_) {
+            const std::size_t count = std::min(size_, end - i);
+            kernel_.kernelVisibleMany(segments.subspan(i, count), {visible.data(), count});
+        }
+    }
+
+    void mixed(std::size_t begin, std::size_t end) const override {
+        for (std::size_t i = begin; i < end; i += 2 * size_) {
+            const RayCounts& first = questions_.before[i];
+            const RayCounts& last = questions_.before[std::min(i + 2 * size_, end)];
+            intersect(first.intersect, last.intersect);
+            visibility(first.visibility, last.visibility);
+        }
+    }
+
+  private:
+    const RTKernel& kernel_;
+    const Questions& questions_;
+    std::size_t size_;
+};
+
+std::unique_ptr<Asker> makeAsker(const RTKernel& kernel, const Questions& questions, int inFlight) {
+    if (inFlight == 1)
+        return std::make_unique<OneByOne>(kernel, questions);
+    return std::make_unique<InFlight>(kernel, questions, inFlight);
+}
+
+}  // namespace
+
+std::optional<Difference> differenceOf(const RayRecord& record, const std::optional<Hit>& hit) {
+    const std::optional<Hit> recorded = record.hit();
+    if (!recorded || !hit) {
+        if (recorded)
+            return Difference::MISSED;
+        return hit ? std::optional(Difference::GHOST) : std::nullopt;
+    }
+    if (recorded->triangle == hit->triangle)
+        return std::nullopt;
+    const double a = recorded->distance, b = hit->distance;
+    return std::abs(a - b) <= TIE_DISTANCE * std::max(a, b) ? Difference::TIE
+                                                            : Difference::WRONG_TRIANGLE;
+}
+
+std::optional<Difference> differenceOf(const RayRecord& record, bool isVisible) {
+    if (isVisible == (record.answer != 0))
+        return std::nullopt;
+    return isVisible ? Difference::FALSE_VISIBLE : Difference::FALSE_OCCLUDED;
+}
+
+ReplayAnswers Replay::compareAnswers() const {
+    const Questions questions(stream_.records);
+    const std::span rays(questions.rays);
+    const std::span segments(questions.segments);
+    std::vector<std::optional<Hit>> hits(rays.size());
+    const auto visible = std::make_unique<bool[]>(segments.size());
+    if (inFlight_ == 1) {
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            hits[i] = kernel_.kernelIntersectGeometry(rays[i]);
+        for (std::size_t i = 0; i < segments.size(); ++i)
+            visible[i] = kernel_.kernelVisibility(segments[i].x, segments[i].y);
+    } else {
+        const auto size = static_cast<std::size_t>(inFlight_);
+        for (std::size_t i = 0; i < rays.size(); i += size) {
+            const std::size_t count = std::min(size, rays.size() - i);
+            kernel_.kernelIntersectMany(rays.subspan(i, count), {hits.data() + i, count});
+        }
+        for (std::size_t i = 0; i < segments.size(); i += size) {
+            const std::size_t count = std::min(size, segments.size() - i);
+            kernel_.kernelVisibleMany(segments.subspan(i, count), {visible.get() + i, count});
+        }
+    }
+
+    ReplayAnswers answers;
+    for (std::size_t i = 0; i < questions.mixed.size(); ++i) {
+        const RayRecord& record = questions.mixed[i];
+        const auto [ray, segment] = questions.before[i];
+        std::optional<Difference> difference;
+        if (record.question == RayRecord::INTERSECT) {
+            const std::optional<Hit>& hit = hits[ray];
+            difference = differenceOf(record, hit);
+            if (hit && record.hit() && hit->triangle == record.triangle) {
+                const double recorded = record.distance;
+                answers.maxRelativeDistanceError =
+                    std::max(answers.maxRelativeDistanceError,
+                             std::abs(hit->distance - recorded) / recorded);
+            }
+        } else {
+            difference = differenceOf(record, visible[segment]);
+        }
+        if (!difference)
+            continue;
+        const auto kind = static_cast<std::size_t>(*difference);
+        ++answers.counts[kind];
+        if (answers.examples[kind].size() < ReplayAnswers::EXAMPLES)
+            answers.examples[kind].push_back(i);
+    }
+    return answers;
+}
+
+ReplayResult Replay::run() const {
+    ReplayResult result;
+    result.recordedBy = stream_.kernel;
+    result.counts = stream_.counts;
+    {
+        const Questions all(stream_.records);
+        const auto asker = makeAsker(kernel_, all, inFlight_);
+        result.intersect = measure(all.rays.size(), threads_,
+                                   [&](auto begin, auto end) { asker->intersect(begin, end); });
+        result.visibility = measure(all.segments.size(), threads_,
+                                    [&](auto begin, auto end) { asker->visibility(begin, end); });
+        result.mixed = measure(all.mixed.size(), threads_,
+                               [&](auto begin, auto end) { asker->mixed(begin, end); });
+    }
+    for (const auto& [first, last] : BOUNCES) {
+        std::vector<RayRecord> records;
+        std::copy_if(stream_.records.begin(), stream_.records.end(), std::back_inserter(records),
+                     [&](const RayRecord& record) {
+                         return record.bounce >= first && record.bounce <= last;
+                     });
+        const Questions some(records);
+        const auto asker = makeAsker(kernel_, some, inFlight_);
+        result.byBounce.push_back({first,
+                                   last,
+                                   {some.rays.size(), some.segments.size()},
+                                   measure(records.size(), threads_, [&](auto begin, auto end) {
+                                       asker->mixed(begin, end);
+                                   })});
+    }
+    result.answers = compareAnswers();
+    return result;
+}
+
+}  // namespace bwfirt

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "render/RayStream.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace bwfirt {
+
+/// How often a kernel answers a stream's questions per second: the median of several measurements,
+/// each of which takes as many whole sweeps of the questions as fill a second.
+struct Rate {
+    double perSecond = 0;
+    std::vector<double> measurements;  ///< all of them, in the order in which they were made
+};
+
+/// In what way an answer differs from the recorded one.
+enum class Difference {
+    MISSED,          ///< h: recorded hit, kernel none
+    GHOST,           ///< h: recorded none, kernel hit
+    WRONG_TRIANGLE,  ///< h: another triangle at another distance
+    TIE,             ///< h: another triangle at the same distance, relative 1e-5; no error
+    FALSE_VISIBLE,   ///< V: recorded hidden
+    FALSE_OCCLUDED,  ///< V: recorded visible
+};
+constexpr std::array<const char*, 6> DIFFERENCE_NAMES = {
+    "missed", "ghost", "wrong_triangle", "tie", "false_visible", "false_occluded"};
+
+struct ReplayAnswers {
+    static constexpr std::size_t EXAMPLES = 3;
+
+    std::array<std::uint64_t, DIFFERENCE_NAMES.size()> counts{};  ///< by Difference
+    /// The first records of each difference, by their index in the stream.
+    std::array<std::vector<std::uint64_t>, DIFFERENCE_NAMES.size()> examples;
+    /// |distance - recorded| / recorded, the largest over hits of the recorded triangle.
+    double maxRelativeDistanceError = 0;
+};
+
+/// The questions of some bounces of all paths.
+struct BounceRate {
+    int first = 0;  ///< bounce
+    int last = 0;   ///< inclusive
+    RayCounts counts;
+    Rate mixed;
+};
+
+struct ReplayResult {
+    std::string recordedBy;  ///< a kernel
+    RayCounts counts;
+    Rate intersect;   ///< h alone
+    Rate visibility;  ///< V alone
+    Rate mixed;       ///< h and V in the recorded order
+    std::vector<BounceRate> byBounce;
+    ReplayAnswers answers;
+};
+
+/// Asks a kernel the questions of a stream, without the renderer.
+class Replay {
+  public:
+    /// @param inFlight 1 asks question by question. A larger number asks for so many at once: for
+    ///        `mixed` each 2 * inFlight questions in a row, first those of h, then those of V.
+    Replay(const RTKernel& kernel, const RayStream& stream, int threads, int inFlight)
+        : kernel_(kernel), stream_(stream), threads_(threads), inFlight_(inFlight) {}
+
+    /// All rates, then all answers. Takes about half a minute, longer where a sweep of the stream
+    /// takes longer than a second.
+    ReplayResult run() const;
+
+    ReplayAnswers compareAnswers() const;
+
+  private:
+    const RTKernel& kernel_;
+    const RayStream& stream_;
+    int threads_;
+    int inFlight_;
+};
+
+/// In what way the kernel's answer to this question differs; nothing where it does not.
+std::optional<Difference> differenceOf(const RayRecord& record, const std::optional<Hit>& hit);
+std::optional<Difference> differenceOf(const RayRecord& record, bool isVisible);
+
+}  // namespace bwfirt
