@@ -122,7 +122,8 @@ std::optional<Settings> parseCommandLine(int argc, const char* const* argv, RTKe
                        "keeps the sums of all passes there, and goes on from them if it exists")
             ->type_name("FILE");
     app.add_flag("--reference", settings.reference,
-                 "writes the average intensity into the camera file as its reference");
+                 "writes the average intensity into the camera file as its reference")
+        ->excludes("--view");
     CLI::Option* record = app.add_option("--record", settings.record,
                                          "records the rays of the path tracer and this kernel's "
                                          "answers while it renders, on one thread")

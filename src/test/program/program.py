@@ -4,6 +4,7 @@
 import json
 import os
 import subprocess
+import time
 from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[3]
@@ -34,6 +35,14 @@ def render(program: Path, folder: Path, *options: str | Path,
     result = run(*batch_command(program, *options, scene=scene), cwd=folder, **process)
     assert result.returncode == 0, result.stderr
     return read_report(folder)
+
+
+def wait_for_file(folder: Path, pattern: str) -> None:
+    """Until a file of this name is there, written by a process that runs meanwhile."""
+    end = time.monotonic() + TIMEOUT_S
+    while not list(folder.glob(pattern)):
+        assert time.monotonic() < end, f'{pattern} has not come'
+        time.sleep(0.01)
 
 
 def read_report(folder: Path) -> dict:

@@ -45,6 +45,23 @@ TEST(CameraFile, ParenthesesMayStandAlone) {
     EXPECT_EQ(camera.referenceAverageIntensity, V3d(0.1, 0.2, 0.3));
 }
 
+TEST(CameraFile, AReferenceReplacesTheOldOneAndNothingElse) {
+    const test::TemporaryFolder folder;
+    const std::string line = referenceLine(V3d(0.1, 0.2, 0.3), "17 passes");
+    EXPECT_EQ(line, "referenceAverageIntensity (0.1 0.2 0.3)  # 17 passes\n");
+    const std::string start = "# by hand\n" + CONFERENCE.substr(0, CONFERENCE.find("reference"));
+    const std::string old = "referenceAverageIntensity (1 1 1) # old\n";
+    for (const auto& [before, after] : {std::pair{start, start + line},
+                                        {start + old, start + line},
+                                        {old + start, line + start},
+                                        {start + "# the end", start + "# the end\n" + line}}) {
+        const std::filesystem::path path = folder.write("a.camera", before);
+        writeReference(path, line);
+        EXPECT_EQ(readTextFile(path), after);
+        EXPECT_EQ(readCamera(path).referenceAverageIntensity, V3d(0.1, 0.2, 0.3));
+    }
+}
+
 TEST(CameraFile, AWrittenCameraIsTheSameToTheBitWhenReadAgain) {
     const test::TemporaryFolder folder;
     std::mt19937_64 random(1);
