@@ -22,6 +22,10 @@ const std::map<std::string, View> VIEWS = {{"normals", View::NORMALS},
                                            {"distance", View::DISTANCE},
                                            {"queries", View::QUERIES}};
 
+/// An empty path would be taken for an option that was not given.
+const CLI::Validator IS_PATH(
+    [](const std::string& text) { return std::string(text.empty() ? "expected a path" : ""); }, "");
+
 constexpr int LARGEST_SIDE = 16384;
 constexpr int MOST_THREADS = 1024;
 
@@ -91,9 +95,9 @@ std::optional<Settings> parseCommandLine(int argc, const char* const* argv, RTKe
                  program);
     app.set_version_flag("--version", program + " " + BuildInfo::VERSION + " (" +
                                           BuildInfo::COMMIT + ", " + BuildInfo::COMPILER + ")");
-    app.add_option("SCENE", settings.scene, "scene file")->required();
+    app.add_option("SCENE", settings.scene, "scene file")->check(IS_PATH)->required();
     app.add_flag("--batch", settings.batch, "no window; needs --camera");
-    app.add_option("--camera", settings.camera, "camera file")->type_name("FILE");
+    app.add_option("--camera", settings.camera, "camera file")->check(IS_PATH)->type_name("FILE");
     app.add_option("--threads", settings.threads,
                    "threads, default: all that this process may run on")
         ->check(CLI::Range(1, MOST_THREADS))
@@ -105,8 +109,11 @@ std::optional<Settings> parseCommandLine(int argc, const char* const* argv, RTKe
     app.add_option("--seed", seed, "seed of all random numbers, default 1")->type_name("N");
     app.add_option("--output", settings.output,
                    "writes BASE.exr (linear float) and BASE.png (sRGB)")
+        ->check(IS_PATH)
         ->type_name("BASE");
-    app.add_option("--report", settings.report, "writes the run report as JSON")->type_name("FILE");
+    app.add_option("--report", settings.report, "writes the run report as JSON")
+        ->check(IS_PATH)
+        ->type_name("FILE");
     app.add_option(
            "--view", settings.viewName,
            "false colours instead of light transport: normals, triangles, distance or queries")
@@ -120,6 +127,7 @@ std::optional<Settings> parseCommandLine(int argc, const char* const* argv, RTKe
     CLI::Option* checkpoint =
         app.add_option("--checkpoint", settings.checkpoint,
                        "keeps the sums of all passes there, and goes on from them if it exists")
+            ->check(IS_PATH)
             ->type_name("FILE");
     app.add_flag("--reference", settings.reference,
                  "writes the average intensity into the camera file as its reference")
@@ -129,6 +137,7 @@ std::optional<Settings> parseCommandLine(int argc, const char* const* argv, RTKe
                                          "answers while it renders, on one thread")
                               ->excludes("--view", "--in-flight")
                               ->excludes(checkpoint)
+                              ->check(IS_PATH)
                               ->type_name("FILE");
     app.add_option("--rays", settings.raysToRecord,
                    "rendering ends with the pass in which so many are recorded, default 2000000")
@@ -141,6 +150,7 @@ std::optional<Settings> parseCommandLine(int argc, const char* const* argv, RTKe
                        "and a check of every answer")
             ->excludes("--view", "--output", "--reference")
             ->excludes(checkpoint, record)
+            ->check(IS_PATH)
             ->type_name("FILE");
     app.add_option("--only", settings.only,
                    "replays the N-th ray only, from 0, and prints both answers")

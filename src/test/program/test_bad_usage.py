@@ -27,7 +27,8 @@ def test_a_bad_size_is_wrong_usage(program: Path, folder: Path, size: str) -> No
     ('--threads', '0'), ('--threads', '-1'), ('--threads', '100000'), ('--threads', 'two'),
     ('--in-flight', '0'), ('--in-flight', '-1'), ('--in-flight', '1000000'), ('--in-flight', 'x'),
     ('--seed', '-1'), ('--seed', '1.5'), ('--seed', 'x'), ('--seed', '99999999999999999999'),
-    ('--view', 'beauty'), ('--view', ''),
+    ('--view', 'beauty'), ('--view', ''), ('--camera', ''), ('--output', ''), ('--report', ''),
+    ('--checkpoint', ''), ('--record', ''), ('--replay', ''),
     ('--kernel-option', 'no-such-option=1'), ('--kernel-option', 'leaf-size'),
     ('--kernel-option', '=1'), ('--kernel-option', ''),
 ])
