@@ -5,6 +5,7 @@
 #include "scene/TextReader.h"
 
 #include <array>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <string>
@@ -30,6 +31,7 @@ Line takeLine(TextReader& text) {
     return line;
 }
 
+/// Numbers as large as float32 has them, so that no ray overflows.
 template <std::size_t COUNT>
 std::array<double, COUNT> numbers(const TextReader& text, const Line& line,
                                   const std::string& expected) {
@@ -40,7 +42,7 @@ std::array<double, COUNT> numbers(const TextReader& text, const Line& line,
                                 std::to_string(line.size() - 1) + " values");
     for (std::size_t i = 0; i < COUNT; ++i) {
         const std::optional<double> value = parseNumber(line[i + 1].text);
-        if (!value)
+        if (!value || std::abs(*value) > std::numeric_limits<float>::max())
             text.failExpected(line[i + 1], key.text, expected);
         values[i] = *value;
     }
@@ -76,7 +78,7 @@ Line withoutParentheses(const TextReader& text, Line line) {
 }
 
 bool isPositive(double value) {
-    return value > 0;
+    return value >= std::numeric_limits<float>::denorm_min();
 }
 bool isNotNegative(double value) {
     return value >= 0;
@@ -90,17 +92,19 @@ void setKey(const TextReader& text, const Line& line, Camera& camera) {
         if (line[1].text != "pinhole")
             text.failExpected(line[1], key, "pinhole");
     } else if (key == "position") {
-        camera.position = vector(text, line, "three finite numbers");
+        camera.position = vector(text, line, "three numbers in the range of float32");
     } else if (key == "direction") {
-        camera.direction = vector(text, line, "three finite numbers");
+        camera.direction = vector(text, line, "three numbers in the range of float32");
     } else if (key == "up") {
-        camera.up = vector(text, line, "three finite numbers");
+        camera.up = vector(text, line, "three numbers in the range of float32");
     } else if (key == "depth") {
-        camera.depth = number(text, line, "a number above 0", isPositive);
+        camera.depth = number(text, line, "a number above 0 in the range of float32", isPositive);
     } else if (key == "filmSizeY") {
-        camera.filmSizeY = number(text, line, "a number above 0", isPositive);
+        camera.filmSizeY =
+            number(text, line, "a number above 0 in the range of float32", isPositive);
     } else if (key == "sensorResponse") {
-        camera.sensorResponse = number(text, line, "a number not below 0", isNotNegative);
+        camera.sensorResponse =
+            number(text, line, "a number not below 0 in the range of float32", isNotNegative);
     } else if (key == "referenceAverageIntensity") {
         camera.referenceAverageIntensity =
             vector(text, withoutParentheses(text, line), "three numbers in parentheses");
@@ -134,8 +138,6 @@ Camera readCamera(const std::filesystem::path& path) {
     for (const char* key : REQUIRED)
         if (!lineOf.contains(key))
             text.fail(1, std::string(key) + ": expected this key");
-    if (!isFinite(V3f(camera.position)))
-        text.fail(lineOf["position"], "position: expected numbers of single precision");
     if (camera.direction == V3d(0))
         text.fail(lineOf["direction"], "direction: expected a vector that is not 0");
     if (camera.up == V3d(0) || areParallel(camera.direction, camera.up))

@@ -41,50 +41,68 @@ std::vector<LightEntry> readLightEntries(TextReader& text, int line) {
     return entries;
 }
 
-Light checkedLight(const TextReader& text, const LightEntry& entry,
-                   const std::vector<Triangle>& triangles) {
-    const auto fail = [&](const std::string& what) { text.fail(entry.line, "lights: " + what); };
-    const std::string range =
-        "light " + std::to_string(entry.first) + " " + std::to_string(entry.last);
+[[noreturn]] void failLight(const TextReader& text, const LightEntry& entry,
+                            const std::string& what) {
+    text.fail(entry.line, "lights: light " + std::to_string(entry.first) + " " +
+                              std::to_string(entry.last) + ": " + what);
+}
+
+Light checkedLight(const TextReader& text, const LightEntry& entry, std::size_t triangles) {
+    const auto fail = [&](const std::string& what) { failLight(text, entry, what); };
     if (entry.first < 0 || entry.last < 0)
-        fail(range + ": a triangle index is negative");
+        fail("a triangle index is negative");
     if (entry.first > entry.last)
-        fail(range + ": the first triangle comes after the last");
-    if (static_cast<std::uint64_t>(entry.last) >= triangles.size())
-        fail(range + ": the last triangle of the scene is " + std::to_string(triangles.size() - 1));
+        fail("the first triangle comes after the last");
+    if (static_cast<std::uint64_t>(entry.last) >= triangles)
+        fail("the last triangle of the scene is " + std::to_string(triangles - 1));
     if (entry.exitance < 0)
-        fail(range + ": the radiant exitance is negative");
-    if (std::none_of(triangles.begin() + entry.first, triangles.begin() + entry.last + 1, hasArea))
-        fail(range + ": its triangles have no area");
+        fail("the radiant exitance is negative");
     return {static_cast<std::uint32_t>(entry.first), static_cast<std::uint32_t>(entry.last),
             entry.exitance};
 }
 
-void checkLightsTogether(const TextReader& text, std::vector<LightEntry> entries,
+/// What can be said only once all lights are known to be ranges of triangles. Overlaps come first:
+/// without them what follows looks at each triangle once, however many lights a file lists.
+void checkLightsTogether(const TextReader& text, const std::vector<LightEntry>& entries,
                          const Scene& scene) {
     if (entries.empty())
         return;
+    std::vector<LightEntry> sorted = entries;
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+        if (sorted[i].first <= sorted[i - 1].last)
+            text.fail(
+                std::max(sorted[i].line, sorted[i - 1].line),
+                "lights: triangle " + std::to_string(sorted[i].first) + " belongs to two lights");
+
+    const auto& triangles = scene.triangles;
+    for (const LightEntry& entry : entries)
+        if (std::none_of(triangles.begin() + entry.first, triangles.begin() + entry.last + 1,
+                         hasArea))
+            failLight(text, entry, "its triangles have no area");
     const double power = LightSampler(scene).totalPower();
     if (!(power > 0 && std::isfinite(power)))
         text.fail(entries.front().line,
                   "lights: expected a radiant exitance above 0 for at least one light, but all "
                   "lights together have a power of " +
                       formatNumber(power));
-    std::stable_sort(entries.begin(), entries.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (std::size_t i = 1; i < entries.size(); ++i) {
-        if (entries[i].first <= entries[i - 1].last)
-            text.fail(
-                std::max(entries[i].line, entries[i - 1].line),
-                "lights: triangle " + std::to_string(entries[i].first) + " belongs to two lights");
-    }
 }
 
-/// @throws std::runtime_error where no word of a scene file can hold the path
-std::string quotedIfNeeded(const std::string& path) {
-    if (path.empty() || path.find_first_of("\"\n") != std::string::npos)
-        throw std::runtime_error("a scene file cannot hold the path '" + path + "'");
-    return path.find_first_of(" \t\r\v\f#") == std::string::npos ? path : '"' + path + '"';
+/// A path is part of messages, and a zero byte would end it early for the operating system.
+bool hasControlCharacters(const std::string& path) {
+    return std::any_of(path.begin(), path.end(),
+                       [](unsigned char c) { return c < ' ' || c == 0x7f; });
+}
+
+/// The path as a word of a scene file, in quotes where it needs them.
+/// @throws std::runtime_error where no word can hold it
+std::string wordOf(const std::string& path) {
+    const bool isWord = !path.starts_with('"') && path.find_first_of(" #") == std::string::npos;
+    if (path.empty() || hasControlCharacters(path) ||
+        (!isWord && path.find('"') != std::string::npos))
+        throw std::runtime_error("a scene file cannot hold the path '" + printable(path) + "'");
+    return isWord ? path : '"' + path + '"';
 }
 
 }  // namespace
@@ -99,7 +117,11 @@ Scene readScene(const std::filesystem::path& path) {
         if (!seen.insert(key.text).second)
             text.fail(key.line, key.text + ": is given twice");
         if (key.text == "triangles") {
-            scene.trianglesPath = text.take("triangles", "the path of a triangle file").text;
+            const std::string expected = "the path of a triangle file";
+            const Word word = text.take("triangles", expected);
+            if (hasControlCharacters(word.text))
+                text.failExpected(word, "triangles", expected + " without control characters");
+            scene.trianglesPath = word.text;
         } else if (key.text == "lights") {
             entries = readLightEntries(text, key.line);
         } else if (key.text == "reflectance") {
@@ -116,13 +138,13 @@ Scene readScene(const std::filesystem::path& path) {
 
     scene.triangles = readTriangles(path.parent_path() / scene.trianglesPath);
     for (const LightEntry& entry : entries)
-        scene.lights.push_back(checkedLight(text, entry, scene.triangles));
+        scene.lights.push_back(checkedLight(text, entry, scene.triangles.size()));
     checkLightsTogether(text, entries, scene);
     return scene;
 }
 
 void writeScene(const std::filesystem::path& path, const Scene& scene) {
-    std::string text = "triangles " + quotedIfNeeded(scene.trianglesPath) + "\n";
+    std::string text = "triangles " + wordOf(scene.trianglesPath) + "\n";
     text += "lights " + std::to_string(scene.lights.size());
     const bool one = scene.lights.size() == 1;
     for (const Light& light : scene.lights)

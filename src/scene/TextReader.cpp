@@ -16,16 +16,6 @@ bool isSpace(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/// A word as it may stand in a message of one line, whatever bytes the file holds.
-std::string printable(std::string_view text) {
-    constexpr std::size_t LONGEST = 40;
-    std::string result(text.substr(0, LONGEST));
-    for (char& c : result)
-        if (c < ' ' || c > '~')
-            c = '?';
-    return text.size() > LONGEST ? result + "..." : result;
-}
-
 /// from_chars over the whole text, with the leading '+' that it does not take itself.
 template <typename T>
 std::optional<T> parse(std::string_view text) {
@@ -103,6 +93,15 @@ void TextReader::advance() {
         fail(line_, "expected a closing '\"' on the same line");
     position_ = end + (quoted ? 1 : 0);
     next_ = Word{std::string(text.substr(begin, end - begin)), line_};
+}
+
+std::string printable(std::string_view text) {
+    constexpr std::size_t LONGEST = 40;
+    std::string result(text.substr(0, LONGEST));
+    for (char& c : result)
+        if (c < ' ' || c > '~')
+            c = '?';
+    return text.size() > LONGEST ? result + "..." : result;
 }
 
 std::optional<double> parseNumber(std::string_view text) {

@@ -177,6 +177,21 @@ def test_a_count_beyond_the_lights_that_follow_is_refused(program: Path, folder:
     assert refusal(program, folder, timeout=10).startswith('box.scene:')
 
 
+def test_many_lights_over_all_triangles_are_refused_at_once(program: Path, folder: Path) -> None:
+    write_triangles(folder / 'box.ra2', np.tile(box_triangles(), (10_000, 1, 1)))
+    line = replace_line(folder / 'box.scene', 'lights', 'lights 10000' + ' 0 139999 1' * 10_000)
+    message = refusal(program, folder, timeout=10)
+    assert message == f'box.scene:{line}: lights: triangle 0 belongs to two lights'
+
+
+@pytest.mark.parametrize('path', ['box\x01.ra2', '"box\t.ra2"', '"box\r.ra2"', 'box.ra2\0x'],
+                         ids=['byte 1', 'tab', 'carriage return', 'zero byte'])
+def test_a_path_with_a_control_character_is_refused(
+        program: Path, folder: Path, path: str) -> None:
+    line = replace_line(folder / 'box.scene', 'triangles', f'triangles {path}')
+    assert refusal(program, folder).startswith(f'box.scene:{line}: triangles: ')
+
+
 def test_a_light_on_a_line_of_its_own_is_refused_with_that_line(
         program: Path, folder: Path) -> None:
     replace_line(folder / 'box.scene', 'lights', 'lights 2\n  12 12 10\n  13 14 10')
@@ -228,7 +243,8 @@ CAMERA_LINES = [
     ('up', '0 0 0'), ('up', '0 0 1'), ('up', '0 0 -7'), ('up', '0 nan 1'), ('up', 'nan nan nan'),
     ('position', '0 nan 0'), ('position', '0 -inf 0'), ('position', '0 0'), ('position', '0 0 x'),
     ('position', '0 0 0,9'), ('position', '0 0 1e999'),
-    ('position', '0 0 1e300'),
+    ('position', '0 0 1e300'), ('direction', '0 0 1e200'), ('up', '0 1e200 0'),
+    ('depth', '1e200'), ('depth', '5e-324'), ('filmSizeY', '1e200'), ('sensorResponse', '1e300'),
     ('depth', '0'), ('depth', '-1'), ('depth', 'nan'), ('depth', '1 1'), ('depth', ''),
     ('filmSizeY', '0'), ('filmSizeY', '-1.5'), ('filmSizeY', 'nan'), ('filmSizeY', 'inf'),
     ('sensorResponse', '-1'), ('sensorResponse', 'nan'), ('type', 'fisheye'), ('type', ''),

@@ -91,7 +91,9 @@ TEST(CameraFile, ErrorsNameFileLineAndKey) {
         readCamera(path);
         FAIL() << "the camera was read";
     } catch (const std::runtime_error& error) {
-        EXPECT_EQ(error.what(), path.string() + ":5: depth: expected a number above 0, not 'deep'");
+        EXPECT_EQ(error.what(),
+                  path.string() +
+                      ":5: depth: expected a number above 0 in the range of float32, not 'deep'");
     }
 }
 

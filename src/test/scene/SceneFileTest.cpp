@@ -64,9 +64,31 @@ TEST_F(SceneFile, AWrittenSceneIsTheSameWhenReadAgain) {
     EXPECT_EQ(again.lights[1].exitance, 1.0 / 3);
 }
 
+TEST_F(SceneFile, AQuoteInsideAPathIsWrittenAsItIs) {
+    writeTriangles(folder / "a\"b.ra2", test::box(V3f(-1), V3f(1)));
+    writeScene(folder / "a.scene", read("triangles a\"b.ra2"));
+    EXPECT_EQ(readScene(folder / "a.scene").trianglesPath, "a\"b.ra2");
+}
+
+TEST_F(SceneFile, AControlCharacterInAPathIsRefused) {
+    for (const std::string path : {"a\x01.ra2", "\"a\tb.ra2\"", "a\x7f"})
+        EXPECT_TRUE(errorOf("triangles " + path).starts_with(":1: triangles: expected")) << path;
+    EXPECT_TRUE(errorOf(std::string("triangles box.ra2\0x", 19)).starts_with(":1: triangles: "));
+}
+
+// Every light would take the memory of all triangles, were they not found to overlap before.
+TEST_F(SceneFile, ManyLightsOverAllTrianglesAreRefusedAtOnce) {
+    std::mt19937 random(1);
+    writeTriangles(folder / "box.ra2", test::soup(100000, 0.1, random));
+    std::string text = "triangles box.ra2 lights 100000";
+    for (int i = 0; i < 100000; ++i)
+        text += "\n0 99999 1";
+    EXPECT_EQ(errorOf(text), ":3: lights: triangle 0 belongs to two lights");
+}
+
 TEST_F(SceneFile, APathThatNoWordCanHoldIsNotWritten) {
     Scene scene;
-    for (const char* path : {"", "a\"b.ra2", "a\nb.ra2"}) {
+    for (const char* path : {"", "\"a.ra2", "a\" b.ra2", "a\nb.ra2", "a\tb.ra2"}) {
         scene.trianglesPath = path;
         EXPECT_THROW(writeScene(folder / "a.scene", scene), std::runtime_error);
     }
