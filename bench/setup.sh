@@ -5,7 +5,7 @@
 set -eu
 
 packages='
-    g++ clang libomp-dev scons git
+    g++ clang libclang-rt-dev libomp-dev scons git
     libimath-dev libopenexr-dev libpng-dev libxxhash-dev libcli11-dev nlohmann-json3-dev libgtest-dev
     python3-numpy python3-pytest
 '

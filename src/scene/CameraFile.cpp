@@ -5,6 +5,7 @@
 #include "scene/TextReader.h"
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <sstream>

@@ -48,6 +48,9 @@ def main() -> int:
 
     # Under the address sanitizer malloc has to refuse too large a request, as it does elsewhere.
     os.environ['ASAN_OPTIONS'] = 'allocator_may_return_null=1'
+    # clang's OpenMP library tells the thread sanitizer, through its tool Archer, how threads wait
+    # for each other. It is not instrumented, so that its own memory would look like races.
+    os.environ['TSAN_OPTIONS'] = 'ignore_noninstrumented_modules=1'
     results = []
     with tempfile.TemporaryDirectory() as folder:
         for program in arguments.programs:

@@ -22,8 +22,12 @@ def scons(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     ('sanitize=address,dirt', "'dirt' is none of address, undefined, thread"),
     ('kernel=simple-bvh,no-such', "'no-such' is none of"),
     ('cxx=no-such-compiler', 'there is no such compiler'),
+    ('fuzz_seconds=soon', 'expected a whole number'),
+    ('sanitize=fuzzer', 'needs cxx=clang++'),
+    ('sanitize=thread', 'needs cxx=clang++'),
+    ('fuzz', 'needs cxx=clang++ sanitize=fuzzer,address,undefined'),
 ])
-def test_an_unknown_option_or_value_is_refused(argument: str, complaint: str) -> None:
+def test_an_unknown_or_unfit_option_or_value_is_refused(argument: str, complaint: str) -> None:
     result = scons(ROOT, argument)
     assert result.returncode == 2
     assert complaint in result.stdout + result.stderr
@@ -32,7 +36,7 @@ def test_an_unknown_option_or_value_is_refused(argument: str, complaint: str) ->
 def test_help_lists_options_targets_and_kernels() -> None:
     text = scons(ROOT, '-h').stdout
     for word in ['debug', 'cxx', 'dvorak', 'frontend', 'kernel', 'arch', 'sanitize', 'scenes',
-                 'bench', 'test', 'simple-bvh', 'funky-kd', 'yourkernel']:
+                 'bench', 'test', 'fuzz', 'simple-bvh', 'funky-kd', 'yourkernel']:
         assert word in text
 
 
