@@ -46,11 +46,12 @@ def main() -> int:
     if not arguments.no_program_tests and importlib.util.find_spec('pytest') is None:
         sys.exit('run.py: pytest is missing: install the Debian package python3-pytest')
 
-    # Under the address sanitizer malloc has to refuse too large a request, as it does elsewhere.
-    os.environ['ASAN_OPTIONS'] = 'allocator_may_return_null=1'
+    # Under a sanitizer malloc has to refuse too large a request, as it does elsewhere.
+    #
     # clang's OpenMP library tells the thread sanitizer, through its tool Archer, how threads wait
     # for each other. It is not instrumented, so that its own memory would look like races.
-    os.environ['TSAN_OPTIONS'] = 'ignore_noninstrumented_modules=1'
+    os.environ['ASAN_OPTIONS'] = 'allocator_may_return_null=1'
+    os.environ['TSAN_OPTIONS'] = 'allocator_may_return_null=1:ignore_noninstrumented_modules=1'
     results = []
     with tempfile.TemporaryDirectory() as folder:
         for program in arguments.programs:
