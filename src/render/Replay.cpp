@@ -19,7 +19,7 @@ constexpr double TIE_DISTANCE = 1e-5;
 /// Questions that a thread takes at a time: enough of them to outweigh the taking.
 constexpr std::size_t CHUNK = 4096;
 
-constexpr std::array<std::pair<int, int>, 5> BOUNCES = {
+constexpr std::array<Bounces, 5> BOUNCES = {
     {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {4, std::numeric_limits<std::uint16_t>::max()}}};
 
 /// A measurement takes whole sweeps of all `count` questions: calls ask(begin, end) for chunks of
@@ -240,16 +240,15 @@ ReplayResult Replay::run() const {
         result.mixed = measure(all.mixed.size(), threads_,
                                [&](auto begin, auto end) { asker->mixed(begin, end); });
     }
-    for (const auto& [first, last] : BOUNCES) {
+    for (const Bounces& bounces : BOUNCES) {
         std::vector<RayRecord> records;
         std::copy_if(stream_.records.begin(), stream_.records.end(), std::back_inserter(records),
                      [&](const RayRecord& record) {
-                         return record.bounce >= first && record.bounce <= last;
+                         return record.bounce >= bounces.first && record.bounce <= bounces.last;
                      });
         const Questions some(records);
         const auto asker = makeAsker(kernel_, some, inFlight_);
-        result.byBounce.push_back({first,
-                                   last,
+        result.byBounce.push_back({bounces,
                                    {some.rays.size(), some.segments.size()},
                                    measure(records.size(), threads_, [&](auto begin, auto end) {
                                        asker->mixed(begin, end);

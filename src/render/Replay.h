@@ -38,10 +38,15 @@ struct ReplayAnswers {
     double maxRelativeDistanceError = 0;
 };
 
+/// Bounces from the first to the last, inclusive.
+struct Bounces {
+    int first = 0;
+    int last = 0;
+};
+
 /// The questions of some bounces of all paths.
 struct BounceRate {
-    int first = 0;  ///< bounce
-    int last = 0;   ///< inclusive
+    Bounces bounces;
     RayCounts counts;
     Rate mixed;
 };

@@ -31,8 +31,8 @@ Json options(const std::vector<KernelOption>& set) {
 Json replayAsJson(const ReplayResult& replay) {
     Json bounces = Json::array();
     for (const BounceRate& bounce : replay.byBounce)
-        bounces.push_back({{"first", bounce.first},
-                           {"last", bounce.last},
+        bounces.push_back({{"first", bounce.bounces.first},
+                           {"last", bounce.bounces.last},
                            {"intersect", bounce.counts.intersect},
                            {"visibility", bounce.counts.visibility},
                            {"mixed_per_second", bounce.mixed.perSecond}});
