@@ -53,13 +53,30 @@ Triangles quad(const V3f& a, const V3f& b, const V3f& c, const V3f& d) {
     return {{{a, b, c}}, {{a, c, d}}};
 }
 
-Triangles box(const V3f& l, const V3f& h) {
-    return joined({quad({l.x, l.y, l.z}, {l.x, h.y, l.z}, {h.x, h.y, l.z}, {h.x, l.y, l.z}),
-                   quad({l.x, l.y, h.z}, {h.x, l.y, h.z}, {h.x, h.y, h.z}, {l.x, h.y, h.z}),
-                   quad({l.x, l.y, l.z}, {h.x, l.y, l.z}, {h.x, l.y, h.z}, {l.x, l.y, h.z}),
-                   quad({l.x, h.y, l.z}, {l.x, h.y, h.z}, {h.x, h.y, h.z}, {h.x, h.y, l.z}),
-                   quad({l.x, l.y, l.z}, {l.x, l.y, h.z}, {l.x, h.y, h.z}, {l.x, h.y, l.z}),
-                   quad({h.x, l.y, l.z}, {h.x, h.y, l.z}, {h.x, h.y, h.z}, {h.x, l.y, h.z})});
+Triangles box(const V3f& low, const V3f& high, int squares) {
+    Triangles triangles;
+    for (const int axis : {2, 1, 0}) {
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        for (const bool isHigh : {false, true}) {
+            // The same numbers for all squares that meet in a corner.
+            const auto corner = [&](int i, int j) {
+                const V3d size = V3d(high) - V3d(low);
+                V3f point = isHigh ? high : low;
+                point[u] = static_cast<float>(low[u] + size[u] * i / squares);
+                point[v] = static_cast<float>(low[v] + size[v] * j / squares);
+                return point;
+            };
+            for (int i = 0; i < squares; ++i) {
+                for (int j = 0; j < squares; ++j) {
+                    const V3f a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
+                              d = corner(i, j + 1);
+                    const Triangles square = isHigh ? quad(a, b, c, d) : quad(a, d, c, b);
+                    triangles.insert(triangles.end(), square.begin(), square.end());
+                }
+            }
+        }
+    }
+    return triangles;
 }
 
 Triangles sphere(const V3f& centre, double radius, int levels, double bumpHeight) {

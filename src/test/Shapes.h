@@ -15,8 +15,9 @@ using Triangles = std::vector<Triangle>;
 /// Two triangles with the corners a b c d, in this order around the quadrilateral.
 Triangles quad(const V3f& a, const V3f& b, const V3f& c, const V3f& d);
 
-/// The six sides of an axis-aligned box, twelve triangles.
-Triangles box(const V3f& low, const V3f& high);
+/// The six sides of an axis-aligned box, each divided in `squares` times `squares` rectangles of
+/// two triangles. The mesh is closed.
+Triangles box(const V3f& low, const V3f& high, int squares = 1);
 
 /// A closed mesh around the centre: an icosahedron whose triangles are divided in four `levels`
 /// times, 20 * 4^levels triangles. Its vertices lie at the radius times 1 + bumps, where the bumps
