@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Runs test programs and the Python tests; ends with the line 'N passed, N failed'.
 
-usage: run.py [--no-program-tests] TEST_PROGRAM ...
+usage: run.py [--no-program-tests] [TEST_PROGRAM ...]
 """
 
 import argparse
@@ -40,9 +40,11 @@ def run(command: list[str], report: Path) -> tuple[int, int, int]:
 
 def main() -> int:
     parser = argparse.ArgumentParser()
-    parser.add_argument('programs', nargs='+')
+    parser.add_argument('programs', nargs='*')
     parser.add_argument('--no-program-tests', action='store_true')
     arguments = parser.parse_args()
+    if arguments.no_program_tests and not arguments.programs:
+        sys.exit('run.py: no kernel was built that could be tested')
     if not arguments.no_program_tests and importlib.util.find_spec('pytest') is None:
         sys.exit('run.py: pytest is missing: install the Debian package python3-pytest')
 

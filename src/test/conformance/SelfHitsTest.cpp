@@ -40,6 +40,7 @@ TEST(SelfHits, NoRayHitsTheTriangleThatItLeaves) {
     expectNoSelfHits(soup(300, 0.3, random));
     expectNoSelfHits(box(V3f(-3, 1, 2), V3f(5, 8, 7), 7));
     expectNoSelfHits(sphere(V3f(11, -7, 3), 2, 3, 0.1));
+    // As large as a scene may be before the renderer warns of the offset.
     expectNoSelfHits(sphere(V3f(20, -10, 5), 90, 3, 0.1));
 }
 
