@@ -108,39 +108,45 @@ TEST(Rays, NonFiniteRaysMiss) {
     EXPECT_FALSE(kernel->kernelIntersectGeometry({V3f(0), V3f(0)})) << "direction 0";
 }
 
-/// The time of `count` queries of h, and as many of V.
-double seconds(const RTKernel& kernel, const std::vector<Ray>& rays, std::size_t count) {
+/// The mean time of asking h and V about one of the rays.
+double secondsPerRay(const RTKernel& kernel, const std::vector<Ray>& rays) {
     const auto begin = std::chrono::steady_clock::now();
-    for (std::size_t i = 0; i < count; ++i) {
-        const Ray& ray = rays[i % rays.size()];
+    for (const Ray& ray : rays) {
         kernel.kernelIntersectGeometry(ray);
         kernel.kernelVisibility(ray.origin, ray.origin + 2.0F * ray.direction);
     }
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    return seconds.count() / static_cast<double>(rays.size());
 }
 
-TEST(Rays, NonFiniteRaysTakeNoLongerThanTenTimesANormalRay) {
-    // A ray that has lost its way meets thousands of triangles here, a normal one meets a few. Both
+TEST(Rays, NoNonFiniteRayTakesLongerThanTenNormalRays) {
+    // A ray that has lost its way meets thousands of triangles here, a normal one meets a few. All
     // kinds take turns, and a disturbance from outside would have to meet most rounds to matter.
-    constexpr std::size_t QUERIES = 100;
+    constexpr std::size_t ROUNDS = 9;
     const Triangles mesh = sphere(V3f(0), 1, 5, 0.1);
     const auto kernel = kernelFor(mesh);
     RandomPoints points(V3f(0), 0.5);
     std::vector<Ray> normal;
-    for (std::size_t i = 0; i < QUERIES; ++i) {
+    for (int i = 0; i < 100; ++i) {
         const V3f origin = points.next();
         normal.push_back(towards(origin, points.next()));
     }
-    std::array<double, 15> ratios;
-    for (double& ratio : ratios) {
-        const double secondsNormal = seconds(*kernel, normal, QUERIES);
-        ratio = seconds(*kernel, nonFiniteRays(), QUERIES) / secondsNormal;
+    const std::vector<Ray> nonFinite = nonFiniteRays();
+    std::vector<std::array<double, ROUNDS>> ratios(nonFinite.size());
+    for (std::size_t round = 0; round < ROUNDS; ++round) {
+        const double secondsNormal = secondsPerRay(*kernel, normal);
+        for (std::size_t kind = 0; kind < nonFinite.size(); ++kind)
+            ratios[kind][round] =
+                secondsPerRay(*kernel, std::vector<Ray>(10, nonFinite[kind])) / secondsNormal;
     }
-    std::sort(ratios.begin(), ratios.end());
-    const double median = ratios[ratios.size() / 2];
-    std::printf("%s: a NaN or infinite ray takes %.2g times as long as a normal ray\n",
-                KernelInfo::NAME, median);
-    EXPECT_LE(median, 10);
+    double worst = 0;
+    for (auto& ofKind : ratios) {
+        std::sort(ofKind.begin(), ofKind.end());
+        worst = std::max(worst, ofKind[ROUNDS / 2]);
+    }
+    std::printf("%s: the slowest NaN or infinite ray takes %.2g times as long as a normal ray\n",
+                KernelInfo::NAME, worst);
+    EXPECT_LE(worst, 10);
 }
 
 }  // namespace
