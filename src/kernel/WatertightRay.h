@@ -80,15 +80,17 @@ class WatertightRay {
         const auto edges = edgesOf<Doubles4>(
             [&](std::size_t vertex, int axis) { return triangles.coordinates(vertex, axis); });
         const auto areMet = edges.areMet();
-        if (std::experimental::none_of(areMet))
+        if (none_of(areMet))
             return std::nullopt;
-        Doubles4 t = edges.z() / directionZ_;
-        std::experimental::where(!(areMet & (t > tMin) & (t < tMax)), t) =
-            std::numeric_limits<double>::infinity();
-        const double nearest = std::experimental::hmin(t);
-        if (!(nearest < tMax))
+        const Doubles4 t = edges.z() / directionZ_;
+        const auto areInReach = areMet & (t > tMin) & (t < tMax);
+        if (none_of(areInReach))
             return std::nullopt;
-        return Meeting{nearest, triangles.index(std::experimental::find_first_set(t == nearest))};
+        int nearest = find_first_set(areInReach);
+        for (int i = nearest + 1; i <= find_last_set(areInReach); ++i)
+            if (areInReach[i] && t[i] < t[nearest])
+                nearest = i;
+        return Meeting{t[nearest], triangles.index(nearest)};
     }
 
   private:

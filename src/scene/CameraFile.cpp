@@ -165,17 +165,16 @@ std::string referenceLine(const V3d& averageIntensity, const std::string& commen
 
 void writeReference(const std::filesystem::path& path, const std::string& line) {
     readCamera(path);
+    int oldLine = 0;
+    for (TextReader text(path); text.peek();)
+        if (const Line words = takeLine(text); words[0].text == "referenceAverageIntensity")
+            oldLine = words[0].line;
+
     std::istringstream old(readTextFile(path));
-    std::string text;
-    bool isReplaced = false;
-    for (std::string oldLine; std::getline(old, oldLine);) {
-        std::string key;
-        std::istringstream(oldLine) >> key;
-        const bool isReference = key == "referenceAverageIntensity";
-        text += isReference ? line : oldLine + "\n";
-        isReplaced = isReplaced || isReference;
-    }
-    writeFileAtomically(path, isReplaced ? text : text + line);
+    std::string text, kept;
+    for (int number = 1; std::getline(old, kept); ++number)
+        text += number == oldLine ? line : kept + "\n";
+    writeFileAtomically(path, oldLine > 0 ? text : text + line);
 }
 
 }  // namespace bwfirt

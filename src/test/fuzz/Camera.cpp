@@ -58,5 +58,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     writeCamera(fuzz::folder() / "written", *camera);
     fuzz::require(same(readCamera(fuzz::folder() / "written"), *camera),
                   "a written camera is the same when read again");
+
+    Camera referenced = *camera;
+    referenced.referenceAverageIntensity = V3d(0.25, 0.5, 0.75);
+    const std::string bytes(reinterpret_cast<const char*>(data), size);
+    const std::filesystem::path path = fuzz::folder().write("referenced", bytes);
+    writeReference(path, referenceLine(V3d(0.25, 0.5, 0.75), "a comment"));
+    fuzz::require(same(readCamera(path), referenced),
+                  "a camera file with a new reference is the same but for that");
     return 0;
 }

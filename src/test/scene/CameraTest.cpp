@@ -51,10 +51,12 @@ TEST(CameraFile, AReferenceReplacesTheOldOneAndNothingElse) {
     EXPECT_EQ(line, "referenceAverageIntensity (0.1 0.2 0.3)  # 17 passes\n");
     const std::string start = "# by hand\n" + CONFERENCE.substr(0, CONFERENCE.find("reference"));
     const std::string old = "referenceAverageIntensity (1 1 1) # old\n";
-    for (const auto& [before, after] : {std::pair{start, start + line},
-                                        {start + old, start + line},
-                                        {old + start, line + start},
-                                        {start + "# the end", start + "# the end\n" + line}}) {
+    for (const auto& [before, after] :
+         {std::pair{start, start + line},
+          {start + old, start + line},
+          {old + start, line + start},
+          {start + "# the end", start + "# the end\n" + line},
+          {start + "\"referenceAverageIntensity\" (1 1 1)", start + line}}) {
         const std::filesystem::path path = folder.write("a.camera", before);
         writeReference(path, line);
         EXPECT_EQ(readTextFile(path), after);
