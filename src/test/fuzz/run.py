@@ -1,5 +1,5 @@
 #!/ usr / bin / python3
-#SPDX - License - Identifier : GPL - 3.0 - only
+# SPDX - License - Identifier : GPL - 3.0 - only
 """Runs fuzz programs one after the other, each for some seconds from its corpus.
 
 Ends with status 1 where one of them found something. The input that showed it lies beside the
@@ -19,7 +19,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 IN_MEMORY = Path('/dev/shm')
 
-#What a reader may take for an input of some kilobytes.
+# What a reader may take for an input of some kilobytes.
 LIMITS = ['-timeout=10', '-malloc_limit_mb=64', '-rss_limit_mb=1024']
 
 
@@ -29,7 +29,7 @@ def fuzz(program: Path, seconds: int) -> bool:
     with tempfile.TemporaryDirectory(dir=IN_MEMORY if IN_MEMORY.is_dir() else None) as scratch:
         new_inputs = Path(scratch) / 'new-inputs'
         new_inputs.mkdir()
-#The program adds inputs to the first folder and only reads from the others.
+# The program adds inputs to the first folder and only reads from the others.
         result = subprocess.run(
             [program, f'-max_total_time={seconds}', *LIMITS, f'-artifact_prefix={program}-',
              *([f'-dict={dictionary}'] if dictionary.exists() else []),
