@@ -1,5 +1,5 @@
-#!/ usr / bin / python3
-# SPDX - License - Identifier : GPL - 3.0 - only
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Runs fuzz programs one after the other, each for some seconds from its corpus.
 
 Ends with status 1 where one of them found something. The input that showed it lies beside the
