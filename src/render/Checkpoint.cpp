@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "render/Checkpoint.h"
 
-#include "scene/Checksum.h"
-#include "scene/FileIO.h"
+#include "render/FileHeader.h"
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <span>
 #include <stdexcept>
 
@@ -14,11 +12,11 @@ namespace bwfirt {
 
 namespace {
 
-constexpr std::array<char, 8> MAGIC = {'b', 'w', 'f', 'i', 'c', 'h', 'k', 'p'};
-constexpr std::uint32_t VERSION = 1;
-
 /// The beginning of a file, as doc/file-formats describes it. The sums follow.
 struct Header {
+    static constexpr std::array<char, 8> MAGIC = {'b', 'w', 'f', 'i', 'c', 'h', 'k', 'p'};
+    static constexpr std::uint32_t VERSION = 1;
+
     std::array<char, 8> magic = MAGIC;
     std::uint32_t version = VERSION;
     std::uint32_t passes = 0;
@@ -34,13 +32,7 @@ struct Header {
     std::uint64_t visibility = 0;
     double secondsRender = 0;
     std::uint64_t sumsChecksum = 0;
-    std::uint64_t headerChecksum = 0;  ///< of all that stands before it
-
-    std::uint64_t checksum() const {
-        Checksum sum;
-        sum.addBytes(this, offsetof(Header, headerChecksum));
-        return sum.value();
-    }
+    std::uint64_t headerChecksum = 0;
 };
 static_assert(sizeof(Header) == 176);
 
@@ -51,12 +43,6 @@ std::array<char, SIZE> padded(const std::string& text) {
     return result;
 }
 
-std::uint64_t checksumOf(const std::string& text) {
-    Checksum sum;
-    sum.addBytes(text.data(), text.size());
-    return sum.value();
-}
-
 Header headerOf(const RunIdentity& identity) {
     Header header;
     header.width = static_cast<std::uint32_t>(identity.width);
@@ -65,7 +51,8 @@ Header headerOf(const RunIdentity& identity) {
     header.camera = identity.camera;
     header.seed = identity.seed;
     header.kernel = padded<64>(identity.kernel);
-    header.kernelOptions = checksumOf(identity.kernelOptions);
+    header.kernelOptions =
+        checksumOfBytes(identity.kernelOptions.data(), identity.kernelOptions.size());
     header.view = padded<16>(identity.view);
     return header;
 }
@@ -134,7 +121,7 @@ void Checkpoint::save(const Film& film, const RayCounts& rays, double secondsRen
     header.visibility = rays.visibility;
     header.secondsRender = secondsRender;
     header.sumsChecksum = sum.value();
-    header.headerChecksum = header.checksum();
+    header.headerChecksum = checksumOfHeader(header);
     file.overwriteBeginning(bytesOfHeader());
     file.commit();
 }
@@ -146,17 +133,7 @@ bool Checkpoint::load(Film& film, RayCounts& rays, double& secondsRender) const 
     if (!std::filesystem::exists(path_))
         return false;
     const std::uintmax_t bytes = inputFileSize(path_);
-    Header header;
-    if (bytes < sizeof header)
-        fail("is too short to be a checkpoint");
-    readBytes(path_, &header, sizeof header);
-    if (header.magic != MAGIC)
-        fail("is not a checkpoint");
-    if (header.version != VERSION)
-        fail("is a checkpoint of version " + std::to_string(header.version) +
-             ", and only version " + std::to_string(VERSION) + " can be read");
-    if (header.headerChecksum != header.checksum())
-        fail("is damaged: its header does not fit its checksum");
+    const auto header = readHeader<Header>(path_, bytes, "a checkpoint");
     if (const std::string difference = differenceBetween(header, headerOf(identity_));
         !difference.empty())
         fail("is the checkpoint of another run: its " + difference + " is not the same");

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "render/RayStream.h"
 
+#include "render/FileHeader.h"
+
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <stdexcept>
 
 namespace bwfirt {
 
 namespace {
 
-constexpr std::array<char, 8> MAGIC = {'b', 'w', 'f', 'i', 'r', 'a', 'y', 's'};
-constexpr std::uint32_t VERSION = 1;
 constexpr std::size_t BUFFERED_RECORDS = 1 << 15;
 
 /// The beginning of a file, as doc/file-formats describes it. The records follow.
 struct Header {
+    static constexpr std::array<char, 8> MAGIC = {'b', 'w', 'f', 'i', 'r', 'a', 'y', 's'};
+    static constexpr std::uint32_t VERSION = 1;
+
     std::array<char, 8> magic = MAGIC;
     std::uint32_t version = VERSION;
     std::uint32_t recordBytes = sizeof(RayRecord);
@@ -25,13 +27,7 @@ struct Header {
     std::uint64_t trianglesChecksum = 0;
     std::array<char, 64> kernel{};  ///< filled up with zeros
     std::uint64_t recordsChecksum = 0;
-    std::uint64_t headerChecksum = 0;  ///< of all that stands before it
-
-    std::uint64_t checksum() const {
-        Checksum sum;
-        sum.addBytes(this, offsetof(Header, headerChecksum));
-        return sum.value();
-    }
+    std::uint64_t headerChecksum = 0;
 };
 static_assert(sizeof(Header) == 128);
 
@@ -46,9 +42,7 @@ std::uint16_t atMost65535(int bounce) {
 }  // namespace
 
 std::uint64_t checksumOf(std::span<const Triangle> triangles) {
-    Checksum sum;
-    sum.addBytes(triangles.data(), triangles.size_bytes());
-    return sum.value();
+    return checksumOfBytes(triangles.data(), triangles.size_bytes());
 }
 
 RayStream readRayStream(const std::filesystem::path& path, std::span<const Triangle> triangles) {
@@ -56,17 +50,10 @@ RayStream readRayStream(const std::filesystem::path& path, std::span<const Trian
         throw std::runtime_error(path.string() + ": " + what);
     };
     const std::uintmax_t bytes = inputFileSize(path);
-    Header header;
-    if (bytes < sizeof header)
-        fail("is too short to be a ray stream");
-    readBytes(path, &header, sizeof header);
-    if (header.magic != MAGIC)
-        fail("is not a ray stream");
-    if (header.version != VERSION || header.recordBytes != sizeof(RayRecord))
-        fail("is a ray stream of version " + std::to_string(header.version) +
-             ", and only version " + std::to_string(VERSION) + " can be read");
-    if (header.headerChecksum != header.checksum())
-        fail("is damaged: its header does not fit its checksum");
+    const auto header = readHeader<Header>(path, bytes, "a ray stream");
+    if (header.recordBytes != sizeof(RayRecord))
+        fail("has rays of " + std::to_string(header.recordBytes) + " bytes, not " +
+             std::to_string(sizeof(RayRecord)));
     if (header.triangles != triangles.size() || header.trianglesChecksum != checksumOf(triangles))
         fail("was recorded on other triangles than those of the scene");
 
@@ -85,9 +72,7 @@ RayStream readRayStream(const std::filesystem::path& path, std::span<const Trian
     stream.counts = {header.intersect, header.visibility};
     stream.records.resize(count);
     readBytes(path, stream.records.data(), recordBytes, sizeof header);
-    Checksum sum;
-    sum.addBytes(stream.records.data(), recordBytes);
-    if (sum.value() != header.recordsChecksum)
+    if (checksumOfBytes(stream.records.data(), recordBytes) != header.recordsChecksum)
         fail("is damaged: its rays do not fit their checksum");
 
     std::uint64_t intersect = 0;
@@ -156,7 +141,7 @@ void RayStreamWriter::finish() {
     std::copy_n(kernel_.begin(), std::min(kernel_.size(), header.kernel.size() - 1),
                 header.kernel.begin());
     header.recordsChecksum = checksum_.value();
-    header.headerChecksum = header.checksum();
+    header.headerChecksum = checksumOfHeader(header);
     file_.overwriteBeginning(bytesOf(header));
     file_.commit();
 }

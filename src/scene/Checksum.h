@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <new>
-#include <string_view>
 #include <type_traits>
 
 namespace bwfirt {
@@ -36,5 +35,10 @@ class Checksum {
   private:
     std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
 };
+
+/// The checksum of these bytes alone.
+inline std::uint64_t checksumOfBytes(const void* bytes, std::size_t size) {
+    return XXH3_64bits(bytes, size);
+}
 
 }  // namespace bwfirt

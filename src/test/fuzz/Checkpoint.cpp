@@ -14,12 +14,6 @@ namespace {
 const RunIdentity IDENTITY = {1, 2, 3, 2, 2, "kernel", "", ""};
 constexpr std::size_t HEADER_BYTES = 176;
 
-std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
-    Checksum sum;
-    sum.addBytes(bytes.data(), bytes.size());
-    return sum.value();
-}
-
 /// The file with the identity of the run and with the checksums that it should have: made-up bytes
 /// alone hardly ever come that far. Offsets are those of doc/file-formats.
 std::vector<std::uint8_t> withChecksums(std::span<const std::uint8_t> data) {
@@ -27,12 +21,12 @@ std::vector<std::uint8_t> withChecksums(std::span<const std::uint8_t> data) {
     const std::string empty = readTextFile(fuzz::folder() / "empty");
     std::vector<std::uint8_t> file(data.begin(), data.end());
     file.resize(std::max(file.size(), HEADER_BYTES));
-    const std::span bytes(file);
     for (const auto& [offset, size] : {std::pair{0, 12}, {16, 120}})
         std::memcpy(file.data() + offset, empty.data() + offset, static_cast<std::size_t>(size));
-    const std::uint64_t sums = checksum(bytes.subspan(HEADER_BYTES));
+    const std::uint64_t sums =
+        checksumOfBytes(file.data() + HEADER_BYTES, file.size() - HEADER_BYTES);
     std::memcpy(file.data() + 160, &sums, sizeof sums);
-    const std::uint64_t header = checksum(bytes.first(168));
+    const std::uint64_t header = checksumOfBytes(file.data(), 168);
     std::memcpy(file.data() + 168, &header, sizeof header);
     return file;
 }
