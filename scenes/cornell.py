@@ -1,13 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-only
-"""Writes cornell.ra2: the Cornell box with its two blocks.
+"""The Cornell box with its two blocks.
 
 Measures are those that Cornell University publishes, in units of 100 mm. The light lies in a hole
-of the ceiling, so that no two triangles cover each other. Its two triangles come first.
+of the ceiling, so that no two triangles cover each other.
 """
 
-import struct
-import sys
+import numpy as np
+
+from model.generator import Model, run
+from model.shapes import quad
 
 Point = tuple[float, float, float]
 
@@ -17,44 +19,42 @@ SHORT_BLOCK = 165.0, [(130.0, 65.0), (82.0, 225.0), (240.0, 272.0), (290.0, 114.
 TALL_BLOCK = 330.0, [(423.0, 247.0), (265.0, 296.0), (314.0, 456.0), (472.0, 406.0)]
 
 
-def quad(a: Point, b: Point, c: Point, d: Point) -> list[tuple[Point, Point, Point]]:
-    return [(a, b, c), (a, c, d)]
-
-
 def rectangle(x: tuple[float, float], y: float, z: tuple[float, float]) -> list[Point]:
     return [(x[0], y, z[0]), (x[1], y, z[0]), (x[1], y, z[1]), (x[0], y, z[1])]
 
 
-def room() -> list[tuple[Point, Point, Point]]:
+def light() -> np.ndarray:
+    return quad(*rectangle(LIGHT_X, HEIGHT, LIGHT_Z))
+
+
+def room() -> list[np.ndarray]:
     floor = rectangle((0, WIDTH), 0, (0, DEPTH))
     ceiling = rectangle((0, WIDTH), HEIGHT, (0, DEPTH))
-    light = rectangle(LIGHT_X, HEIGHT, LIGHT_Z)
-    triangles = quad(*light) + quad(*floor)
+    hole = rectangle(LIGHT_X, HEIGHT, LIGHT_Z)
+    quads = [quad(*floor)]
     for i in range(4):
         following = (i + 1) % 4
-        triangles += quad(ceiling[i], ceiling[following], light[following], light[i])
+        quads.append(quad(ceiling[i], ceiling[following], hole[following], hole[i]))
     for i in range(1, 4):  # the side from which the camera looks in is open
         following = (i + 1) % 4
-        triangles += quad(floor[i], floor[following], ceiling[following], ceiling[i])
-    return triangles
+        quads.append(quad(floor[i], floor[following], ceiling[following], ceiling[i]))
+    return quads
 
 
-def block(height: float, corners: list[tuple[float, float]]) -> list[tuple[Point, Point, Point]]:
+def block(height: float, corners: list[tuple[float, float]]) -> list[np.ndarray]:
     bottom = [(x, 0.0, z) for x, z in corners]
     top = [(x, height, z) for x, z in corners]
-    triangles = quad(*top)
+    quads = [quad(*top)]
     for i in range(4):
         following = (i + 1) % 4
-        triangles += quad(bottom[i], bottom[following], top[following], top[i])
-    return triangles
+        quads.append(quad(bottom[i], bottom[following], top[following], top[i]))
+    return quads
 
 
-def main(path: str) -> None:
-    triangles = room() + block(*SHORT_BLOCK) + block(*TALL_BLOCK)
-    with open(path, 'wb') as file:
-        for triangle in triangles:
-            file.write(struct.pack('<9f', *(value / 100 for point in triangle for value in point)))
+def build(_: float) -> Model:
+    geometry = np.concatenate(room() + block(*SHORT_BLOCK) + block(*TALL_BLOCK))
+    return Model(geometry / 100, lights=[(light() / 100, 80)])
 
 
 if __name__ == '__main__':
-    main(sys.argv[1])
+    run(__doc__, build, scalable=False)
