@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-only
+"""A roof above the stands, open above the pitch: trusses that cantilever from columns behind."""
+
+import numpy as np
+
+from model.meshes import joined, repeated
+from model.shapes import box, steps, tubes
+
+from . import plan
+
+Array = np.ndarray
+
+INNER, OUTER = 2.5, 38.0  # offsets of the edges
+INNER_HEIGHT, OUTER_HEIGHT = 35.5, 32.0  # of the skin
+RISE = 1.2  # of its middle above the straight line between
+THICKNESS = 0.35
+ROOT, TIP = 4.2, 0.9  # heights of a truss
+PANELS = 9  # of a truss
+CHORD, BRACE, RING = 0.17, 0.09, 0.11  # radii of tubes
+FLOODLIGHTS = 4, 7  # lamps of a rack
+
+
+def skin_height(offset: Array | float) -> Array | float:
+    t = (offset - INNER) / (OUTER - INNER)
+    return INNER_HEIGHT + t * (OUTER_HEIGHT - INNER_HEIGHT) + 4 * RISE * t * (1 - t)
+
+
+def lower_height(offset: Array | float) -> Array | float:
+    """Of the lower chord of a truss."""
+    t = (offset - INNER) / (OUTER - INNER)
+    return skin_height(offset) - THICKNESS - TIP - (ROOT - TIP) * t * t
+
+
+def skin(angles: Array, segments: int) -> Array:
+    offset = INNER + np.arange(segments + 1) * ((OUTER + 1 - INNER) / segments)
+    top = np.stack([offset, skin_height(offset)], axis=-1)
+    bottom = top - np.array([0, THICKNESS])
+    edge = [(INNER, skin_height(INNER) - 2 * THICKNESS), (INNER - 0.3, skin_height(INNER) - 0.7),
+            (INNER - 0.3, skin_height(INNER) + 0.3), (INNER, skin_height(INNER) + 0.3)]
+    profile = np.concatenate([bottom[::-1], edge, top, bottom[-1:]])
+    return plan.ring(profile, angles).reshape(-1, 3, 3)
+
+
+def tubes_between(starts: Array, ends: Array, radius: float, sides: int) -> Array:
+    return tubes(np.stack([starts, ends], axis=-2), radius, sides, closed_ends=False)
+
+
+def trusses(angles: Array, sides: int) -> Array:
+    node = INNER + 0.3 + np.arange(PANELS + 1) * ((OUTER - INNER - 0.3) / PANELS)
+    angles = angles[:, np.newaxis]
+    upper = plan.at(angles, skin_height(node) - THICKNESS - CHORD, node)
+    lower = plan.at(angles, lower_height(node), node)
+    return joined(
+        tubes(upper, CHORD, sides, closed_ends=False), tubes(lower, CHORD, sides),
+        tubes_between(upper, lower, BRACE, sides),
+        tubes_between(upper[:, :-1], lower[:, 1:], BRACE, sides))
+
+
+def rings(angles: Array, sides: int) -> Array:
+    """Tubes that join the trusses, at every third of their nodes."""
+    offsets = INNER + 0.3 + np.arange(0, PANELS + 1, 3) * ((OUTER - INNER - 0.3) / PANELS)
+    closed = np.append(angles, angles[0])
+    return joined(tubes(plan.at(closed, lower_height(offset), offset), RING, sides,
+                        closed_ends=False) for offset in offsets.tolist())
+
+
+def columns(angles: Array, sides: int) -> Array:
+    foot, head = plan.at(angles, 0.0, OUTER), plan.at(angles, skin_height(OUTER), OUTER)
+    return tubes_between(foot, head, 2 * CHORD, sides)
+
+
+def floodlight() -> Array:
+    """A lamp that looks along z: a box that opens into a flat funnel."""
+    back, front = 0.13, 0.2
+    corners = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)], dtype=float)
+
+    def square(half: float, z: float) -> Array:
+        return np.concatenate([corners * half, np.full((4, 1), z)], axis=1)
+
+    rims = np.stack([square(back, -0.2), square(back, 0.0), square(front, 0.22)], axis=1)
+    following = np.roll(rims, -1, axis=0)
+    sides = [np.stack([rims[:, i], following[:, i], following[:, i + 1]], axis=1)
+             for i in range(2)]
+    others = [np.stack([rims[:, i], following[:, i + 1], rims[:, i + 1]], axis=1)
+              for i in range(2)]
+    plates = [rims[[0, 1, 2], i] for i in (0, 1)] + [rims[[0, 2, 3], i] for i in (0, 1)]
+    return joined(*sides, *others, np.array(plates))
+
+
+def rack() -> Array:
+    """Rows of floodlights on a frame, that hang from the origin and look along z."""
+    rows, columns_ = FLOODLIGHTS
+    lamps = [floodlight() + np.array([(i - (columns_ - 1) / 2) * 0.5, -0.6 - 0.5 * j, 0.0])
+             for i in range(columns_) for j in range(rows)]
+    width, height = columns_ * 0.25 + 0.1, rows * 0.5 + 0.4
+    posts = [box((x - 0.05, -height, -0.32), (x + 0.05, 0.5, -0.22)) for x in (-width, 0, width)]
+    beams = [box((-width, y - 0.04, -0.22), (width, y + 0.04, -0.16))
+             for y in (-0.6 - 0.5 * np.arange(rows)).tolist()]
+    return joined(lamps, posts, beams)
+
+
+def floodlights() -> Array:
+    """Racks between the trusses, tilted towards the pitch."""
+    angles = plan.bays([0.5]).reshape(-1)
+    tilt = np.array([[1, 0, 0], [0, 0.82, -0.572], [0, 0.572, 0.82]])  # about 35 degrees
+    mesh = rack()
+    y, z = mesh[..., 1].copy(), mesh[..., 2].copy()
+    mesh[..., 1], mesh[..., 2] = tilt[1, 1] * y + tilt[1, 2] * z, tilt[2, 1] * y + tilt[2, 2] * z
+    offset = INNER + 0.8
+    return repeated(mesh, plan.facing_in(angles),
+                    plan.at(angles, skin_height(offset) - THICKNESS - 0.5, offset))
+
+
+def roof(angles: Array, detail: float) -> Array:
+    parts = [skin(angles, steps(6 * detail, 2))]
+    if detail > 0.2:
+        stations, sides = plan.bays([0]).reshape(-1), steps(6 * detail, 3)
+        parts += [trusses(stations, sides), rings(angles, sides), columns(stations, sides),
+                  floodlights()]
+    return joined(parts)

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: GPL-3.0-only
+"""Two tiers of stands: steps, stairs, entrances and railings. Seats are in seats.py."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from model.meshes import joined
+from model.shapes import steps, tubes
+
+from . import plan
+
+Array = np.ndarray
+
+STAIR_WIDTH = 1.1
+SOFFIT = 12.0  # height of the underside of the upper tier
+PARAPET = 0.85  # height of walls to lean on
+ENTRANCE = (0.33, 0.67)  # sides of an entrance, as fractions of a bay
+HEADROOM = 1.9
+WALL = 0.12
+TUNNEL = 5.0  # from an entrance into the dark
+RAIL_RADIUS = 0.035
+
+
+@dataclass
+class Tier:
+    """Rows of steps on which seats stand; the first step is a gangway."""
+
+    offset: float  # of the first row from the edge of the arena
+    height: float
+    depth: float  # of all rows
+    rise: float
+    rows: int
+    entrance_row: int
+    entrance_bay: int  # the first with an entrance; then every second has one
+
+    def row_offset(self, row: Array | int) -> Array | float:
+        return self.offset + self.depth * row / self.rows
+
+    def row_height(self, row: Array | int) -> Array | float:
+        return self.height + self.rise * row / self.rows
+
+    def profile(self) -> list[tuple[float, float]]:
+        """From the front edge of the first row to the back edge of the last."""
+        points = []
+        for row in range(self.rows):
+            points += [(self.row_offset(row), self.row_height(row)),
+                       (self.row_offset(row + 1), self.row_height(row))]
+        return points
+
+    def entrance_rows(self) -> tuple[int, int]:
+        """The first row that an entrance takes, and the first one above its door."""
+        needed = int(HEADROOM / (self.rise / self.rows)) + 1
+        return self.entrance_row, min(self.entrance_row + needed, self.rows - 1)
+
+    def entrance_bays(self) -> Array:
+        return np.arange(self.entrance_bay, plan.BAYS, 2)
+
+
+def tiers(coarseness: float) -> tuple[Tier, Tier]:
+    """The lower and the upper tier; rows are that many times as deep as they should be."""
+    lower, upper = steps(20 / coarseness, 1), steps(19 / coarseness, 1)
+    return (Tier(1.9, 0.9, 16.6, 7.6, lower, lower // 3, 0),
+            Tier(18.8, 13.0, 16.6, 11.4, upper, upper // 5, 1))
+
+
+def directions(segments: int) -> Array:
+    """Where the rings have corners: also at the sides of all entrances."""
+    low, high = ENTRANCE
+    parts = [np.arange(segments) * (low / segments),
+             low + np.arange(segments) * ((high - low) / segments),
+             high + np.arange(segments) * ((1 - high) / segments)]
+    return plan.bays(np.concatenate(parts).tolist()).reshape(-1)
+
+
+def steps_of(tier: Tier, angles: Array, with_entrances: bool) -> Array:
+    """Treads and risers, with holes for the entrances."""
+    cells = plan.ring(tier.profile(), angles)
+    kept = np.ones(cells.shape[:2], dtype=bool)
+    if with_entrances:
+        first, last = tier.entrance_rows()
+        in_bay = len(angles) // plan.BAYS
+        column = np.arange(len(angles))
+        open_column = (np.isin(column // in_bay, tier.entrance_bays())
+                       & (column % in_bay * 3 // in_bay == 1))
+        kept[open_column, 2 * first:2 * last] = False
+    return cells[kept].reshape(-1, 3, 3)
+
+
+def stairs(tier: Tier) -> Array:
+    """A step of half the height between each two rows."""
+    angles = plan.bays([0]).reshape(-1)
+    rise, depth = tier.rise / tier.rows, tier.depth / tier.rows
+    return joined(plan.bent_boxes(
+        angles, STAIR_WIDTH, (tier.row_height(row) - 0.02, tier.row_height(row) + rise / 2),
+        (tier.row_offset(row) + depth / 2, tier.row_offset(row + 1) + 0.02))
+        for row in range(tier.rows - 1))
+
+
+def entrances(tier: Tier) -> Array:
+    """Walls at both sides with sloping tops, one above the door, and a tunnel behind it."""
+    first, last = tier.entrance_rows()
+    front, back = tier.row_offset(first), tier.row_offset(last)
+    floor, top = tier.row_height(first), tier.row_height(last) + PARAPET
+    door, end, thick = floor + HEADROOM, back + TUNNEL, back + WALL
+    left, right = plan.bays(list(ENTRANCE))[tier.entrance_bays()].T
+    meshes = [
+        plan.quads((left, floor, front), (right, floor, front), (right, floor, end),
+                   (left, floor, end)),
+        plan.quads((left, door, back), (right, door, back), (right, top, back), (left, top, back)),
+        plan.quads((left, top, back), (right, top, back), (right, top, thick), (left, top, thick)),
+        plan.quads((left, door, thick), (right, door, thick), (right, top, thick),
+                   (left, top, thick)),
+        plan.quads((left, door, back), (right, door, back), (right, door, end), (left, door, end)),
+        plan.quads((left, floor, end), (right, floor, end), (right, door, end), (left, door, end))]
+    for side, outer in ((left, left - WALL / plan.radius(left, back)),
+                        (right, right + WALL / plan.radius(right, back))):
+        meshes += [
+            plan.quads((side, floor, front), (side, floor, back), (side, top, back),
+                       (side, floor + PARAPET, front)),
+            plan.quads((outer, floor - WALL, front), (outer, floor - WALL, thick),
+                       (outer, top, thick), (outer, floor + PARAPET, front)),
+            plan.quads((side, floor + PARAPET, front), (side, top, thick), (outer, top, thick),
+                       (outer, floor + PARAPET, front)),
+            plan.quads((side, floor - WALL, front), (side, floor + PARAPET, front),
+                       (outer, floor + PARAPET, front), (outer, floor - WALL, front)),
+            plan.quads((outer, floor, thick), (side, floor, thick), (side, top, thick),
+                       (outer, top, thick)),
+            plan.quads((side, floor, back), (side, floor, end), (side, door, end),
+                       (side, door, back))]
+    return joined(meshes)
+
+
+def front_wall(angles: Array) -> Array:
+    """Around the arena, with the gangway in front of the first row."""
+    first = tiers(1)[0]
+    return plan.ring([(0, -0.1), (0, first.height + PARAPET), (0.2, first.height + PARAPET),
+                      (0.2, first.height), (first.offset, first.height)],
+                     angles).reshape(-1, 3, 3)
+
+
+def between_tiers(angles: Array) -> Array:
+    """From the last row of the lower tier to the first row of the upper one, by way of the
+    concourse, its back wall, and the front of the upper tier."""
+    lower, upper = tiers(1)
+    back, floor = lower.row_offset(lower.rows), lower.row_height(lower.rows - 1)
+    edge = upper.offset - 1.6
+    return plan.ring([(back, floor), (back + 0.1, floor), (back + 3.6, floor), (back + 3.6, SOFFIT),
+                      (edge + 1.2, SOFFIT), (edge + 0.3, SOFFIT + 0.35), (edge, SOFFIT + 0.5),
+                      (edge, upper.height + PARAPET), (edge + 0.2, upper.height + PARAPET),
+                      (edge + 0.2, upper.height), (upper.offset, upper.height)],
+                     angles).reshape(-1, 3, 3)
+
+
+def back_wall(angles: Array) -> Array:
+    """Behind the last row of the upper tier, and the outer face of the stadium."""
+    upper = tiers(1)[1]
+    back, floor = upper.row_offset(upper.rows), upper.row_height(upper.rows - 1)
+    return plan.ring([(back, floor), (back + 1.2, floor), (back + 1.2, floor + 1.6),
+                      (back + 1.5, floor + 1.6), (back + 1.5, 0)], angles).reshape(-1, 3, 3)
+
+
+def box_fronts() -> Array:
+    """Posts between the rooms at the back of the concourse."""
+    lower = tiers(1)[0]
+    back, floor = lower.row_offset(lower.rows), lower.row_height(lower.rows - 1)
+    return joined(
+        plan.bent_boxes(plan.evenly(plan.BAYS * 4), 0.18, (floor - 0.1, SOFFIT + 0.1),
+                        (back + 3.0, back + 3.5)),
+        plan.bent_boxes(plan.evenly(plan.BAYS * 4, start=0.5), 1.7, (floor - 0.1, floor + 0.7),
+                        (back + 3.1, back + 3.3)))
+
+
+def handrail(offset: float, height: float, angles: Array) -> Array:
+    """A tube on posts."""
+    path = plan.at(np.append(angles, angles[0]), height + 0.35, offset)
+    posts = plan.bent_boxes(plan.evenly(plan.BAYS * 3, offset), 2 * RAIL_RADIUS,
+                            (height - 0.05, height + 0.35),
+                            (offset - RAIL_RADIUS, offset + RAIL_RADIUS))
+    return joined(tubes(path, RAIL_RADIUS, 5, closed_ends=False), posts)
+
+
+def handrails(angles: Array) -> Array:
+    """On the front walls of both tiers."""
+    lower, upper = tiers(1)
+    return joined(handrail(0.1, lower.height + PARAPET, angles),
+                  handrail(upper.offset - 1.5, upper.height + PARAPET, angles))
+
+
+def stands(coarseness: float, segments: int, furnished: bool) -> Array:
+    """All but seats; `segments` of the rings for each third of a bay, or of the oval's quarter."""
+    angles = directions(segments) if furnished else plan.evenly(4 * segments)
+    parts = [front_wall(angles), between_tiers(angles), back_wall(angles)]
+    for tier in tiers(coarseness):
+        parts.append(steps_of(tier, angles, furnished))
+        if furnished:
+            parts += [stairs(tier), entrances(tier)]
+    if furnished:
+        parts += [box_fronts(), handrails(angles)]
+    return joined(parts)

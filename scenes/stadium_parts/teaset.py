@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-only
+"""The teapot on a round platform on the centre spot, with cups and saucers around it."""
+
+import numpy as np
+
+from model.meshes import joined, moved, rotated, scaled, Y
+from model.portable import PI
+from model.shapes import lathe, spline, steps, tubes
+
+from .teapot import teapot
+
+Array = np.ndarray
+
+SCALE = 0.2  # of Newell's measures
+PLATFORM = 0.26  # its height
+SUNK = 0.003  # how deep things stand in what carries them
+CUPS = [(0.62, 0.95, 0.6), (-0.18, 1.05, 2.5), (-1.15, 0.55, 1.2)]  # x, z, turn of each
+
+
+def platform(segments: int) -> Array:
+    """Two steps with rounded edges."""
+    return lathe([(2.35, -0.1), (2.35, 0.09), (2.33, 0.12), (2.3, 0.13), (1.92, 0.13),
+                  (1.92, 0.22), (1.9, 0.25), (1.87, PLATFORM), (0, PLATFORM)], segments)
+
+
+def cup(segments: int) -> Array:
+    profile = [(0, 0.03), (0.08, 0.03), (0.09, 0.0), (0.1, 0.0), (0.1, 0.035), (0.15, 0.09),
+               (0.185, 0.17), (0.2, 0.25), (0.193, 0.254), (0.186, 0.25), (0.17, 0.17),
+               (0.135, 0.1), (0.08, 0.055), (0, 0.05)]
+    handle = spline(np.array([(0.17, 0.205, 0), (0.24, 0.22, 0), (0.285, 0.18, 0),
+                              (0.26, 0.125, 0), (0.21, 0.095, 0), (0.15, 0.1, 0)]), segments)
+    return joined(smooth_lathe(profile, segments), tubes(handle, 0.014, steps(segments / 5, 4)))
+
+
+def saucer(segments: int) -> Array:
+    return smooth_lathe([(0.0, 0.0), (0.17, 0.0), (0.2, 0.012), (0.36, 0.055), (0.365, 0.064),
+                         (0.355, 0.067), (0.2, 0.026), (0.17, 0.018), (0.0, 0.016)], segments)
+
+
+def smooth_lathe(profile: list[tuple[float, float]], segments: int) -> Array:
+    """A surface of revolution with a smooth curve through the profile's points."""
+    curve = spline(np.array(profile), max(len(profile), segments * 2 // 3))
+    curve[:, 0] = np.maximum(curve[:, 0], 0)
+    return lathe(curve, segments)
+
+
+def teaset(detail: float) -> Array:
+    segments = min(steps(48 * detail, 2), 120)
+    parts = [platform(steps(96 * detail, 12)),
+             moved(scaled(teapot(segments), SCALE), y=PLATFORM - SUNK)]
+    if detail > 0.08:
+        set_of_one = joined(moved(cup(steps(40 * detail, 8)), y=0.016 - SUNK),
+                            saucer(steps(48 * detail, 8)))
+        parts += [moved(rotated(set_of_one, Y, turn), x, PLATFORM - SUNK, z)
+                  for x, z, turn in CUPS]
+    return joined(parts)
