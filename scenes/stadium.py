@@ -14,21 +14,35 @@ from model.shapes import steps
 from stadium_parts import plan
 from stadium_parts.pitch import pitch
 from stadium_parts.roof import roof
-from stadium_parts.seats import seats
+from stadium_parts.seats import coarseness, seats
 from stadium_parts.sky import sky
 from stadium_parts.stands import directions, stands, tiers
 from stadium_parts.teaset import teaset
 
 Array = np.ndarray
 
+REFLECTANCE = 0.6  # light that goes round and round would wash out the shadows
+SEATS_FROM, FURNITURE_FROM = 0.006, 0.05  # levels of detail; below there are only steps
+
+
+def ring_directions(fineness: float, furnished: bool) -> Array:
+    """Where the rings of the stadium have corners."""
+    if furnished:
+        return directions(steps(2 * fineness, 1))
+    return plan.evenly(4 * steps(90 * fineness, 3))
+
 
 def build(detail: float) -> Model:
-    fineness = detail**0.5
-    angles = directions(2)
-    random = Random(1975)
-    parts = [teaset(fineness), pitch(angles, fineness), roof(angles, fineness), stands(1, 2, True)]
-    parts += [seats(tier, 1, (3, 6), random) for tier in tiers(1)]
-    return Model(joined(parts), sky())
+    fineness = detail**0.5  # triangles along a line
+    furnished = detail > FURNITURE_FROM
+    angles = ring_directions(fineness, furnished)
+    both = tiers(coarseness(detail), furnished)
+    parts = [teaset(fineness), pitch(angles, fineness), roof(angles, fineness),
+             stands(both, angles, furnished)]
+    if detail > SEATS_FROM:
+        random = Random(1975)
+        parts += [seats(tier, detail, random) for tier in both]
+    return Model(joined(parts), sky(), REFLECTANCE)
 
 
 if __name__ == '__main__':

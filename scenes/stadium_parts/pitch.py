@@ -15,6 +15,7 @@ METRE = 1 / 1.3
 LENGTH, BREADTH = 105 * METRE, 68 * METRE
 MARGIN = 1.6  # of turf outside the lines
 BANDS = 20  # that the mower left; the grass of each leans the other way than that of its neighbours
+RIDGES = 40  # of grass in each band
 BLADE_HEIGHT = 0.05
 LINE = 0.12
 GROUND = -0.06
@@ -23,16 +24,16 @@ GOAL_WIDTH, GOAL_HEIGHT, GOAL_DEPTH = 7.32 * METRE, 2.44 * METRE, 1.6
 POST, CORD = 0.06, 0.008
 
 
-def turf(ridges: int) -> Array:
-    """Saw teeth across the pitch, that many to each band. Their gentle sides look to the end
-    towards which the grass leans."""
+def turf() -> Array:
+    """Saw teeth across the pitch. Their gentle sides look to the end towards which the grass of a
+    band leans."""
     half_length, half_breadth = LENGTH / 2 + MARGIN, BREADTH / 2 + MARGIN
-    tooth = 2 * half_length / BANDS / ridges
-    start = np.arange(BANDS * ridges) * tooth - half_length
-    leans = np.arange(BANDS * ridges) // ridges % 2
+    tooth = 2 * half_length / BANDS / RIDGES
+    start = np.arange(BANDS * RIDGES) * tooth - half_length
+    leans = np.arange(BANDS * RIDGES) // RIDGES % 2
     tip = start + tooth * np.where(leans, 0.2, 0.8)
     x = np.append(np.stack([start, tip], axis=-1).reshape(-1), half_length)
-    y = np.append(np.tile([-BLADE_HEIGHT, 0.0], BANDS * ridges), -BLADE_HEIGHT)
+    y = np.append(np.tile([-BLADE_HEIGHT, 0.0], BANDS * RIDGES), -BLADE_HEIGHT)
     edges = [np.stack([x, y, np.full_like(x, z)], axis=-1) for z in (half_breadth, -half_breadth)]
     return surface(np.stack(edges, axis=1))
 
@@ -83,14 +84,14 @@ def lines(segments: int) -> Array:
         arc_line(CIRCLE, 0, 2 * PI, 0, segments * 8), end, end * np.array([-1.0, 1.0, 1.0]))
 
 
-def net_cords(detail: float) -> Array:
+def net_cords(fineness: float) -> Array:
     """Paths over the net's roof and back, and others along its height, that sag a little."""
-    count = steps(36 * detail, 4)
+    count = steps(36 * fineness, 4)
     z = (np.arange(count + 1) / count - 0.5) * GOAL_WIDTH
     section = np.array([(0, GOAL_HEIGHT), (0.35, GOAL_HEIGHT - 0.05), (0.7, GOAL_HEIGHT - 0.03),
                         (1.1, 1.0), (1.45, 0.3), (GOAL_DEPTH, 0.0)])
     paths = np.stack(np.broadcast_arrays(section[:, 0], section[:, 1], z[:, np.newaxis]), axis=-1)
-    rise = steps(14 * detail, 2)
+    rise = steps(14 * fineness, 2)
     t = np.arange(1, rise * 2) / (rise * 2) * (len(section) - 1)
     at = np.minimum(t.astype(np.int64), len(section) - 2)
     part = (t - at)[:, np.newaxis]
@@ -100,9 +101,9 @@ def net_cords(detail: float) -> Array:
     return joined(tubes(paths, CORD, 3, closed_ends=False), tubes(rows, CORD, 3, closed_ends=False))
 
 
-def side_net(detail: float) -> Array:
+def side_net(fineness: float) -> Array:
     """Upright and level cords in the plane of a side, up to the slope of the back."""
-    count = steps(10 * detail, 2)
+    count = steps(10 * fineness, 2)
     x = (np.arange(count) + 0.5) / count * GOAL_DEPTH
     top = np.where(x < 0.7, GOAL_HEIGHT - 0.03, (GOAL_DEPTH - x) / 0.9 * (GOAL_HEIGHT - 0.1))
     uprights = np.stack([np.stack([x, np.zeros(count), np.zeros(count)], -1),
@@ -114,9 +115,9 @@ def side_net(detail: float) -> Array:
     return tubes(np.concatenate([uprights, levels]), CORD, 3, closed_ends=False)
 
 
-def goal(detail: float) -> Array:
+def goal(fineness: float) -> Array:
     """Its mouth in the plane x = 0, the net towards x."""
-    half, sides = GOAL_WIDTH / 2 + POST, steps(10 * detail, 4)
+    half, sides = GOAL_WIDTH / 2 + POST, steps(10 * fineness, 4)
     top = GOAL_HEIGHT + POST
     frame = [[(0, -0.1, z), (0, top, z)] for z in (-half, half)] + [[(0, top, -half),
                                                                      (0, top, half)]]
@@ -124,7 +125,7 @@ def goal(detail: float) -> Array:
     base = [[(0, 0.02, -half), (GOAL_DEPTH, 0.02, -half), (GOAL_DEPTH, 0.02, half),
              (0, 0.02, half)]]
     return joined(tubes(frame, POST, sides), tubes(stays, 0.03, 5), tubes(base, 0.03, 5),
-                  net_cords(detail), *(moved(side_net(detail), z=z) for z in (-half, half)))
+                  net_cords(fineness), *(moved(side_net(fineness), z=z) for z in (-half, half)))
 
 
 def corner_flag() -> Array:
@@ -157,10 +158,13 @@ def ground(angles: Array) -> Array:
     return np.stack([middle, np.roll(edge, -1, axis=0), edge], axis=1)
 
 
-def pitch(angles: Array, detail: float) -> Array:
-    parts = [ground(angles), turf(steps(40 * detail, 1)), lines(steps(12 * detail, 2))]
-    if detail > 0.1:
-        end = joined(moved(goal(detail), x=LENGTH / 2),
+def pitch(angles: Array, fineness: float) -> Array:
+    """The ground reaches out to the front wall, which has corners at these angles."""
+    parts = [ground(angles)]
+    if fineness > 0.07:
+        parts += [turf(), lines(steps(12 * fineness, 3))]
+    if fineness > 0.22:
+        end = joined(moved(goal(fineness), x=LENGTH / 2),
                      moved(corner_flag(), LENGTH / 2, 0, BREADTH / 2),
                      moved(corner_flag(), LENGTH / 2, 0, -BREADTH / 2))
         parts += [end, end * np.array([-1.0, 1.0, 1.0]), boards()]

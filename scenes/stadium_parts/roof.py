@@ -11,6 +11,7 @@ from . import plan
 Array = np.ndarray
 
 INNER, OUTER = 2.5, 38.0  # offsets of the edges
+SKIN = 13.0  # where the skin begins; nearer to the pitch there are only slats
 INNER_HEIGHT, OUTER_HEIGHT = 35.5, 32.0  # of the skin
 RISE = 1.2  # of its middle above the straight line between
 THICKNESS = 0.35
@@ -32,13 +33,18 @@ def lower_height(offset: Array | float) -> Array | float:
 
 
 def skin(angles: Array, segments: int) -> Array:
-    offset = INNER + np.arange(segments + 1) * ((OUTER + 1 - INNER) / segments)
+    """Closed over the stands."""
+    offset = SKIN + np.arange(segments + 1) * ((OUTER + 1 - SKIN) / segments)
     top = np.stack([offset, skin_height(offset)], axis=-1)
     bottom = top - np.array([0, THICKNESS])
-    edge = [(INNER, skin_height(INNER) - 2 * THICKNESS), (INNER - 0.3, skin_height(INNER) - 0.7),
-            (INNER - 0.3, skin_height(INNER) + 0.3), (INNER, skin_height(INNER) + 0.3)]
-    profile = np.concatenate([bottom[::-1], edge, top, bottom[-1:]])
-    return plan.ring(profile, angles).reshape(-1, 3, 3)
+    return plan.ring(np.concatenate([bottom[::-1], top, bottom[-1:]]), angles).reshape(-1, 3, 3)
+
+
+def beams(angles: Array, offsets: Array, width: float, height: float) -> Array:
+    """Along the rings, hanging from the level of the skin's underside."""
+    return joined(plan.ring([(o, y), (o + width, y), (o + width, y - height), (o, y - height),
+                             (o, y)], angles).reshape(-1, 3, 3)
+                  for o, y in zip(offsets.tolist(), (skin_height(offsets) - THICKNESS).tolist()))
 
 
 def tubes_between(starts: Array, ends: Array, radius: float, sides: int) -> Array:
@@ -111,10 +117,16 @@ def floodlights() -> Array:
                     plan.at(angles, skin_height(offset) - THICKNESS - 0.5, offset))
 
 
-def roof(angles: Array, detail: float) -> Array:
-    parts = [skin(angles, steps(6 * detail, 2))]
-    if detail > 0.2:
-        stations, sides = plan.bays([0]).reshape(-1), steps(6 * detail, 3)
+def roof(angles: Array, fineness: float) -> Array:
+    """The skin's rings have corners at these angles."""
+    parts = [skin(angles, steps(5 * fineness, 1)),
+             beams(angles, np.array([INNER]), 0.5, 1.1)]
+    if fineness > 0.22:
+        stations, sides = plan.bays([0]).reshape(-1), steps(6 * fineness, 3)
+        purlins = SKIN + 2.0 + np.arange(8) * ((OUTER - SKIN - 2.0) / 8)
+        slats = INNER + 1.2 + np.arange(12) * ((SKIN - INNER - 1.2) / 12)
         parts += [trusses(stations, sides), rings(angles, sides), columns(stations, sides),
-                  floodlights()]
+                  beams(angles, purlins, 0.2, 0.45), beams(angles, slats, 0.12, 0.3)]
+    if fineness > 0.5:
+        parts.append(floodlights())
     return joined(parts)

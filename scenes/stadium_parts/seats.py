@@ -5,7 +5,7 @@ import numpy as np
 
 from model.meshes import joined, repeated
 from model.portable import Random
-from model.shapes import spline, surface
+from model.shapes import spline, steps, surface
 
 from . import plan
 from .stands import ENTRANCE, STAIR_WIDTH, Tier
@@ -67,7 +67,7 @@ def places(tier: Tier, row: int, pitch: float) -> Array:
     runs = []
     for bay, (start, left, right, end) in enumerate(starts.tolist()):
         start, end = start + STAIR_WIDTH / 2, end - STAIR_WIDTH / 2
-        if bay in tier.entrance_bays() and first <= row <= last:
+        if bay in tier.entrance_bays and first <= row <= last:
             runs += [(start, left - 0.2), (right + 0.2, end)]
         else:
             runs.append((start, end))
@@ -78,12 +78,28 @@ def places(tier: Tier, row: int, pitch: float) -> Array:
     return plan.angle_at(np.concatenate(lengths), offset)
 
 
-def seats(tier: Tier, coarseness: float, shape: tuple[int, int], random: Random) -> Array:
+def shape(detail: float) -> tuple[int, int]:
+    """Segments across, points along."""
+    if detail < 0.4:
+        return 1, 3
+    across_segments = steps(3 * detail**0.5, 3)
+    return across_segments, max(len(SECTION), steps(15 * detail / across_segments, 5) + 1)
+
+
+def coarseness(detail: float) -> float:
+    """How many times as wide and far apart seats are as they should be, so that there are few
+    enough of them."""
+    ratio = len(seat(*shape(detail))) / (len(seat(*shape(1))) * detail)
+    return max(1.0, ratio)**0.5
+
+
+def seats(tier: Tier, detail: float, random: Random) -> Array:
     """All seats of a tier, each turned by a hair."""
-    angles = [places(tier, row, PITCH * coarseness) for row in range(tier.rows)]
+    width = coarseness(detail)
+    angles = [places(tier, row, PITCH * width) for row in range(tier.rows)]
     row = np.repeat(np.arange(tier.rows), [len(a) for a in angles])
     angle = np.concatenate(angles)
     offsets = plan.at(angle, tier.row_height(row), tier.row_offset(row + 1))
     turn = random.uniform(-0.06, 0.06, len(angle))
-    mesh = seat(*shape) * np.array([coarseness, 1.0, 1.0])
+    mesh = seat(*shape(detail)) * np.array([width, 1.0, 1.0])
     return repeated(mesh, plan.facing_in(angle + turn), offsets)

@@ -8,9 +8,10 @@ from model.portable import PI, cos, sin
 Array = np.ndarray
 
 BASE, TOP, RADIUS = 20.0, 98.0, 97.0
-SEGMENTS, RINGS = 24, 6
-SKY_EXITANCE, SUN_EXITANCE = 1.0, 70.0
-SUN_RING, SUN_SEGMENTS = 3, (14, 15)  # cells of the dome
+SEGMENTS, RINGS = 16, 6
+LOW_RINGS = 2  # seen only between roof and stands, and from high seats; they are darker
+LOW_EXITANCE, HIGH_EXITANCE, SUN_EXITANCE = 0.35, 1.0, 240.0
+SUN_SEGMENT, SUN_RING = 12, 3  # the cell of the dome that is the sun
 
 
 def dome() -> Array:
@@ -34,6 +35,8 @@ def triangles(cells: Array) -> Array:
 
 def sky() -> list[tuple[Array, float]]:
     cells = dome()
-    is_sun = np.zeros(cells.shape[:2], dtype=bool)
-    is_sun[list(SUN_SEGMENTS), SUN_RING] = True
-    return [(triangles(cells[~is_sun]), SKY_EXITANCE), (triangles(cells[is_sun]), SUN_EXITANCE)]
+    kind = np.ones(cells.shape[:2], dtype=np.int64)
+    kind[:, :LOW_RINGS] = 0
+    kind[SUN_SEGMENT, SUN_RING] = 2
+    exitances = LOW_EXITANCE, HIGH_EXITANCE, SUN_EXITANCE
+    return [(triangles(cells[kind == i]), exitance) for i, exitance in enumerate(exitances)]

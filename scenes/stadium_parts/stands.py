@@ -13,6 +13,8 @@ from . import plan
 Array = np.ndarray
 
 STAIR_WIDTH = 1.1
+GANGWAY = 1.6  # in front of the first row of the upper tier
+CONCOURSE = 3.6
 SOFFIT = 12.0  # height of the underside of the upper tier
 PARAPET = 0.85  # height of walls to lean on
 ENTRANCE = (0.33, 0.67)  # sides of an entrance, as fractions of a bay
@@ -32,7 +34,7 @@ class Tier:
     rise: float
     rows: int
     entrance_row: int
-    entrance_bay: int  # the first with an entrance; then every second has one
+    entrance_bays: Array
 
     def row_offset(self, row: Array | int) -> Array | float:
         return self.offset + self.depth * row / self.rows
@@ -53,15 +55,13 @@ class Tier:
         needed = int(HEADROOM / (self.rise / self.rows)) + 1
         return self.entrance_row, min(self.entrance_row + needed, self.rows - 1)
 
-    def entrance_bays(self) -> Array:
-        return np.arange(self.entrance_bay, plan.BAYS, 2)
 
-
-def tiers(coarseness: float) -> tuple[Tier, Tier]:
+def tiers(coarseness: float, furnished: bool) -> tuple[Tier, Tier]:
     """The lower and the upper tier; rows are that many times as deep as they should be."""
     lower, upper = steps(20 / coarseness, 1), steps(19 / coarseness, 1)
-    return (Tier(1.9, 0.9, 16.6, 7.6, lower, lower // 3, 0),
-            Tier(18.8, 13.0, 16.6, 11.4, upper, upper // 5, 1))
+    bays = np.arange(plan.BAYS if furnished else 0)
+    return (Tier(1.9, 0.9, 16.6, 7.6, lower, lower // 3, bays[0::2]),
+            Tier(18.8, 13.0, 16.6, 11.4, upper, upper // 5, bays[1::2]))
 
 
 def directions(segments: int) -> Array:
@@ -73,15 +73,15 @@ def directions(segments: int) -> Array:
     return plan.bays(np.concatenate(parts).tolist()).reshape(-1)
 
 
-def steps_of(tier: Tier, angles: Array, with_entrances: bool) -> Array:
+def steps_of(tier: Tier, angles: Array) -> Array:
     """Treads and risers, with holes for the entrances."""
     cells = plan.ring(tier.profile(), angles)
     kept = np.ones(cells.shape[:2], dtype=bool)
-    if with_entrances:
+    if len(tier.entrance_bays):
         first, last = tier.entrance_rows()
         in_bay = len(angles) // plan.BAYS
         column = np.arange(len(angles))
-        open_column = (np.isin(column // in_bay, tier.entrance_bays())
+        open_column = (np.isin(column // in_bay, tier.entrance_bays)
                        & (column % in_bay * 3 // in_bay == 1))
         kept[open_column, 2 * first:2 * last] = False
     return cells[kept].reshape(-1, 3, 3)
@@ -103,7 +103,7 @@ def entrances(tier: Tier) -> Array:
     front, back = tier.row_offset(first), tier.row_offset(last)
     floor, top = tier.row_height(first), tier.row_height(last) + PARAPET
     door, end, thick = floor + HEADROOM, back + TUNNEL, back + WALL
-    left, right = plan.bays(list(ENTRANCE))[tier.entrance_bays()].T
+    left, right = plan.bays(list(ENTRANCE))[tier.entrance_bays].T
     meshes = [
         plan.quads((left, floor, front), (right, floor, front), (right, floor, end),
                    (left, floor, end)),
@@ -131,44 +131,47 @@ def entrances(tier: Tier) -> Array:
     return joined(meshes)
 
 
-def front_wall(angles: Array) -> Array:
-    """Around the arena, with the gangway in front of the first row."""
-    first = tiers(1)[0]
-    return plan.ring([(0, -0.1), (0, first.height + PARAPET), (0.2, first.height + PARAPET),
-                      (0.2, first.height), (first.offset, first.height)],
-                     angles).reshape(-1, 3, 3)
+def front_wall(lower: Tier) -> list[tuple[float, float]]:
+    """Profile of the arena's edge, with the gangway in front of the first row."""
+    top = lower.height + PARAPET
+    return [(0, -0.1), (0, top), (0.2, top), (0.2, lower.height), (lower.offset, lower.height)]
 
 
-def between_tiers(angles: Array) -> Array:
-    """From the last row of the lower tier to the first row of the upper one, by way of the
+def between_tiers(lower: Tier, upper: Tier) -> list[tuple[float, float]]:
+    """Profile from the last row of the lower tier to the first row of the upper one, by way of the
     concourse, its back wall, and the front of the upper tier."""
-    lower, upper = tiers(1)
     back, floor = lower.row_offset(lower.rows), lower.row_height(lower.rows - 1)
-    edge = upper.offset - 1.6
-    return plan.ring([(back, floor), (back + 0.1, floor), (back + 3.6, floor), (back + 3.6, SOFFIT),
-                      (edge + 1.2, SOFFIT), (edge + 0.3, SOFFIT + 0.35), (edge, SOFFIT + 0.5),
-                      (edge, upper.height + PARAPET), (edge + 0.2, upper.height + PARAPET),
-                      (edge + 0.2, upper.height), (upper.offset, upper.height)],
-                     angles).reshape(-1, 3, 3)
+    edge, top = upper.offset - GANGWAY, upper.height + PARAPET
+    return [(back, floor), (back + CONCOURSE, floor), (back + CONCOURSE, SOFFIT),
+            (edge + 1.2, SOFFIT), (edge + 0.3, SOFFIT + 0.35), (edge, SOFFIT + 0.5), (edge, top),
+            (edge + 0.2, top), (edge + 0.2, upper.height), (upper.offset, upper.height)]
 
 
-def back_wall(angles: Array) -> Array:
-    """Behind the last row of the upper tier, and the outer face of the stadium."""
-    upper = tiers(1)[1]
+def back_wall(upper: Tier) -> list[tuple[float, float]]:
+    """Profile behind the last row of the upper tier, and of the outer face of the stadium."""
     back, floor = upper.row_offset(upper.rows), upper.row_height(upper.rows - 1)
-    return plan.ring([(back, floor), (back + 1.2, floor), (back + 1.2, floor + 1.6),
-                      (back + 1.5, floor + 1.6), (back + 1.5, 0)], angles).reshape(-1, 3, 3)
+    return [(back, floor), (back + 1.2, floor), (back + 1.2, floor + 1.6),
+            (back + 1.5, floor + 1.6), (back + 1.5, 0)]
 
 
-def box_fronts() -> Array:
-    """Posts between the rooms at the back of the concourse."""
-    lower = tiers(1)[0]
+def without_small(profile: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """A profile with fewer corners, but the same ends."""
+    kept = [profile[0]]
+    for x, y in profile[1:-1]:
+        if max(abs(x - kept[-1][0]), abs(y - kept[-1][1])) > 0.9:
+            kept.append((x, y))
+    return kept + profile[-1:]
+
+
+def box_fronts(lower: Tier) -> Array:
+    """Posts and low walls of the boxes at the back of the concourse."""
     back, floor = lower.row_offset(lower.rows), lower.row_height(lower.rows - 1)
+    count = plan.BAYS * 4
     return joined(
-        plan.bent_boxes(plan.evenly(plan.BAYS * 4), 0.18, (floor - 0.1, SOFFIT + 0.1),
-                        (back + 3.0, back + 3.5)),
-        plan.bent_boxes(plan.evenly(plan.BAYS * 4, start=0.5), 1.7, (floor - 0.1, floor + 0.7),
-                        (back + 3.1, back + 3.3)))
+        plan.bent_boxes(plan.evenly(count), 0.18, (floor - 0.1, SOFFIT + 0.1),
+                        (back + CONCOURSE - 0.7, back + CONCOURSE - 0.2)),
+        plan.bent_boxes(plan.evenly(count, start=0.5), 1.7, (floor - 0.1, floor + 0.7),
+                        (back + CONCOURSE - 0.6, back + CONCOURSE - 0.4)))
 
 
 def handrail(offset: float, height: float, angles: Array) -> Array:
@@ -180,21 +183,17 @@ def handrail(offset: float, height: float, angles: Array) -> Array:
     return joined(tubes(path, RAIL_RADIUS, 5, closed_ends=False), posts)
 
 
-def handrails(angles: Array) -> Array:
-    """On the front walls of both tiers."""
-    lower, upper = tiers(1)
-    return joined(handrail(0.1, lower.height + PARAPET, angles),
-                  handrail(upper.offset - 1.5, upper.height + PARAPET, angles))
-
-
-def stands(coarseness: float, segments: int, furnished: bool) -> Array:
-    """All but seats; `segments` of the rings for each third of a bay, or of the oval's quarter."""
-    angles = directions(segments) if furnished else plan.evenly(4 * segments)
-    parts = [front_wall(angles), between_tiers(angles), back_wall(angles)]
-    for tier in tiers(coarseness):
-        parts.append(steps_of(tier, angles, furnished))
-        if furnished:
-            parts += [stairs(tier), entrances(tier)]
+def stands(both: tuple[Tier, Tier], angles: Array, furnished: bool) -> Array:
+    """All but seats; the rings have corners at these angles, and few others if unfurnished."""
+    lower, upper = both
+    profiles = [front_wall(lower), between_tiers(lower, upper), back_wall(upper)]
+    if not furnished:
+        profiles = [without_small(profile) for profile in profiles]
+    parts = [plan.ring(profile, angles).reshape(-1, 3, 3) for profile in profiles]
+    parts += [steps_of(tier, angles) for tier in both]
     if furnished:
-        parts += [box_fronts(), handrails(angles)]
+        for tier in both:
+            parts += [stairs(tier), entrances(tier)]
+        parts += [box_fronts(lower), handrail(0.1, lower.height + PARAPET, angles),
+                  handrail(upper.offset - GANGWAY + 0.1, upper.height + PARAPET, angles)]
     return joined(parts)

@@ -11,16 +11,21 @@ from .teapot import teapot
 
 Array = np.ndarray
 
-SCALE = 0.2  # of Newell's measures
+SCALE = 0.23  # of Newell's measures
+TURN = 1.85  # of the spout, from x away from z
 PLATFORM = 0.26  # its height
 SUNK = 0.003  # how deep things stand in what carries them
-CUPS = [(0.62, 0.95, 0.6), (-0.18, 1.05, 2.5), (-1.15, 0.55, 1.2)]  # x, z, turn of each
+CUPS = [(-0.65, 0.9, 1.2), (0.8, 1.0, 2.9), (1.15, -1.25, 4.0)]  # x, z, turn of each
 
 
 def platform(segments: int) -> Array:
     """Two steps with rounded edges."""
     return lathe([(2.35, -0.1), (2.35, 0.09), (2.33, 0.12), (2.3, 0.13), (1.92, 0.13),
                   (1.92, 0.22), (1.9, 0.25), (1.87, PLATFORM), (0, PLATFORM)], segments)
+
+
+def plain_platform(segments: int) -> Array:
+    return lathe([(2.35, -0.1), (1.87, PLATFORM), (0, PLATFORM)], segments)
 
 
 def cup(segments: int) -> Array:
@@ -44,13 +49,12 @@ def smooth_lathe(profile: list[tuple[float, float]], segments: int) -> Array:
     return lathe(curve, segments)
 
 
-def teaset(detail: float) -> Array:
-    segments = min(steps(48 * detail, 2), 120)
-    parts = [platform(steps(96 * detail, 12)),
-             moved(scaled(teapot(segments), SCALE), y=PLATFORM - SUNK)]
-    if detail > 0.08:
-        set_of_one = joined(moved(cup(steps(40 * detail, 8)), y=0.016 - SUNK),
-                            saucer(steps(48 * detail, 8)))
-        parts += [moved(rotated(set_of_one, Y, turn), x, PLATFORM - SUNK, z)
-                  for x, z, turn in CUPS]
-    return joined(parts)
+def teaset(fineness: float) -> Array:
+    segments = min(steps(48 * fineness, 2), 120)
+    pot = moved(rotated(scaled(teapot(segments), SCALE), Y, TURN), y=PLATFORM - SUNK)
+    if fineness < 0.07:
+        return joined(plain_platform(12), pot)
+    set_of_one = joined(moved(cup(steps(40 * fineness, 8)), y=0.016 - SUNK),
+                        saucer(steps(48 * fineness, 8)))
+    sets = [moved(rotated(set_of_one, Y, turn), x, PLATFORM - SUNK, z) for x, z, turn in CUPS]
+    return joined(platform(steps(96 * fineness, 24)), pot, sets)
