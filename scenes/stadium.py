@@ -14,6 +14,7 @@ from model.shapes import steps
 from stadium_parts import plan
 from stadium_parts.pitch import pitch
 from stadium_parts.roof import roof
+from stadium_parts.scoreboard import scoreboards
 from stadium_parts.seats import coarseness, seats
 from stadium_parts.sky import sky
 from stadium_parts.stands import directions, stands, tiers
@@ -39,6 +40,8 @@ def build(detail: float) -> Model:
     both = tiers(coarseness(detail), furnished)
     parts = [teaset(fineness), pitch(angles, fineness), roof(angles, fineness),
              stands(both, angles, furnished)]
+    if furnished:
+        parts.append(scoreboards())
     if detail > SEATS_FROM:
         random = Random(1975)
         parts += [seats(tier, detail, random) for tier in both]

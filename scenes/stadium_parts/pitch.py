@@ -5,7 +5,7 @@ import numpy as np
 
 from model.meshes import joined, moved, rotated, X, Y
 from model.portable import PI, cos, sin
-from model.shapes import box, steps, surface, tubes
+from model.shapes import box, quad, steps, surface, tubes
 
 from . import plan
 
@@ -36,6 +36,11 @@ def turf() -> Array:
     y = np.append(np.tile([-BLADE_HEIGHT, 0.0], BANDS * RIDGES), -BLADE_HEIGHT)
     edges = [np.stack([x, y, np.full_like(x, z)], axis=-1) for z in (half_breadth, -half_breadth)]
     return surface(np.stack(edges, axis=1))
+
+
+def flat_turf() -> Array:
+    x, y, z = LENGTH / 2 + MARGIN, -BLADE_HEIGHT / 2, BREADTH / 2 + MARGIN
+    return quad((-x, y, z), (x, y, z), (x, y, -z), (-x, y, -z))
 
 
 def line(x: tuple[float, float], z: tuple[float, float], layer: int) -> Array:
@@ -151,6 +156,29 @@ def boards() -> Array:
     return joined(meshes)
 
 
+def dugout(segments: int) -> Array:
+    """A shelter for the substitutes, open towards -z, with a bench and ribs on its roof."""
+    half, rib = 4.0, 0.05
+    angle = np.arange(segments + 1) / segments * (0.62 * PI)
+    z, y = 1.5 * cos(angle), 1.75 * sin(angle)
+    shell = surface(np.stack([np.stack([np.full_like(z, x), y, z], axis=-1)
+                              for x in (-half, half)], axis=1))
+    places = np.arange(9) / 4 * half - half
+    ribs = tubes(np.stack(np.broadcast_arrays(places[:, np.newaxis], y, z), axis=-1), rib, 5)
+    ends = [np.array([((x, 0, 0), (x, b, a), (x, d, c)) for a, b, c, d
+                      in zip(z[:-1], y[:-1], z[1:], y[1:])], dtype=float) for x in (-half, half)]
+    bench = [box((-half + 0.1, 0.32, 0.55), (half - 0.1, 0.4, 1.0)),
+             box((-half + 0.1, 0.5, 1.0), (half - 0.1, 0.85, 1.06))]
+    bench += [box((x - 0.04, -0.05, 0.6), (x + 0.04, 0.34, 1.03)) for x in (-3.0, 0.0, 3.0)]
+    return joined(shell, ribs, ends, bench)
+
+
+def dugouts(segments: int) -> Array:
+    """On both sides of the halfway line, in front of the sunny stand."""
+    z = BREADTH / 2 + 4.6
+    return joined(moved(dugout(segments), x, GROUND, z) for x in (-9.0, 9.0))
+
+
 def ground(angles: Array) -> Array:
     """Out to the front wall."""
     edge = plan.at(angles, GROUND, 0.05)
@@ -162,10 +190,11 @@ def pitch(angles: Array, fineness: float) -> Array:
     """The ground reaches out to the front wall, which has corners at these angles."""
     parts = [ground(angles)]
     if fineness > 0.07:
-        parts += [turf(), lines(steps(12 * fineness, 3))]
+        parts += [turf() if fineness > 0.1 else flat_turf(), lines(steps(12 * fineness, 3))]
     if fineness > 0.22:
         end = joined(moved(goal(fineness), x=LENGTH / 2),
                      moved(corner_flag(), LENGTH / 2, 0, BREADTH / 2),
                      moved(corner_flag(), LENGTH / 2, 0, -BREADTH / 2))
-        parts += [end, end * np.array([-1.0, 1.0, 1.0]), boards()]
+        parts += [end, end * np.array([-1.0, 1.0, 1.0]), boards(),
+                  dugouts(steps(12 * fineness, 4))]
     return joined(parts)

@@ -121,12 +121,13 @@ def roof(angles: Array, fineness: float) -> Array:
     """The skin's rings have corners at these angles."""
     parts = [skin(angles, steps(5 * fineness, 1)),
              beams(angles, np.array([INNER]), 0.5, 1.1)]
-    if fineness > 0.22:
+    if fineness > 0.28:
         stations, sides = plan.bays([0]).reshape(-1), steps(6 * fineness, 3)
+        parts += [trusses(stations, sides), rings(angles, sides), columns(stations, sides)]
+    if fineness > 0.35:
         purlins = SKIN + 2.0 + np.arange(8) * ((OUTER - SKIN - 2.0) / 8)
         slats = INNER + 1.2 + np.arange(12) * ((SKIN - INNER - 1.2) / 12)
-        parts += [trusses(stations, sides), rings(angles, sides), columns(stations, sides),
-                  beams(angles, purlins, 0.2, 0.45), beams(angles, slats, 0.12, 0.3)]
+        parts += [beams(angles, purlins, 0.2, 0.45), beams(angles, slats, 0.12, 0.3)]
     if fineness > 0.5:
         parts.append(floodlights())
     return joined(parts)

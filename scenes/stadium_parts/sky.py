@@ -10,8 +10,8 @@ Array = np.ndarray
 BASE, TOP, RADIUS = 20.0, 98.0, 97.0
 SEGMENTS, RINGS = 16, 6
 LOW_RINGS = 2  # seen only between roof and stands, and from high seats; they are darker
-LOW_EXITANCE, HIGH_EXITANCE, SUN_EXITANCE = 0.35, 1.0, 240.0
-SUN_SEGMENT, SUN_RING = 12, 3  # the cell of the dome that is the sun
+LOW_EXITANCE, HIGH_EXITANCE, SUN_EXITANCE = 0.5, 1.0, 240.0
+SUN_SEGMENT, SUN_RING = 11, 3  # the cell of the dome that is the sun
 
 
 def dome() -> Array:

@@ -5,7 +5,7 @@ import numpy as np
 
 from model.meshes import joined, moved, rotated, scaled, Y
 from model.portable import PI
-from model.shapes import lathe, spline, steps, tubes
+from model.shapes import lathe, rounded_box, spline, steps, tubes
 
 from .teapot import teapot
 
@@ -15,7 +15,11 @@ SCALE = 0.23  # of Newell's measures
 TURN = 1.85  # of the spout, from x away from z
 PLATFORM = 0.26  # its height
 SUNK = 0.003  # how deep things stand in what carries them
-CUPS = [(-0.65, 0.9, 1.2), (0.8, 1.0, 2.9), (1.15, -1.25, 4.0)]  # x, z, turn of each
+CUPS = [(-0.65, 0.9, 1.2), (0.85, 1.05, 2.9)]  # x, z, turn of each
+
+LUMP = 0.11  # size of a lump of sugar
+LUMPS = [(-0.95, 0, -0.42, 0.3), (-0.99, 0, -0.28, 1.0), (-0.74, 0, -0.62, 0.75),
+         (-0.965, 0.985, -0.35, 0.6)]  # x, layer, z, turn of each
 
 
 def platform(segments: int) -> Array:
@@ -42,6 +46,14 @@ def saucer(segments: int) -> Array:
                          (0.355, 0.067), (0.2, 0.026), (0.17, 0.018), (0.0, 0.016)], segments)
 
 
+def sugar(segments: int) -> Array:
+    """Some lumps; the last lies on others."""
+    half = LUMP / 2
+    lump = rounded_box((-half, 0, -half), (half, LUMP, half), 0.015, segments)
+    return joined(moved(rotated(lump, Y, turn), x, layer * LUMP + PLATFORM - SUNK, z)
+                  for x, layer, z, turn in LUMPS)
+
+
 def smooth_lathe(profile: list[tuple[float, float]], segments: int) -> Array:
     """A surface of revolution with a smooth curve through the profile's points."""
     curve = spline(np.array(profile), max(len(profile), segments * 2 // 3))
@@ -57,4 +69,4 @@ def teaset(fineness: float) -> Array:
     set_of_one = joined(moved(cup(steps(40 * fineness, 8)), y=0.016 - SUNK),
                         saucer(steps(48 * fineness, 8)))
     sets = [moved(rotated(set_of_one, Y, turn), x, PLATFORM - SUNK, z) for x, z, turn in CUPS]
-    return joined(platform(steps(96 * fineness, 24)), pot, sets)
+    return joined(platform(steps(96 * fineness, 24)), pot, sets, sugar(steps(5 * fineness, 1)))
