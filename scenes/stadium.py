@@ -20,13 +20,11 @@ from stadium_parts.sky import sky
 from stadium_parts.stands import directions, stands, tiers
 from stadium_parts.teaset import teaset
 
-Array = np.ndarray
-
 REFLECTANCE = 0.6  # light that goes round and round would wash out the shadows
 SEATS_FROM, FURNITURE_FROM = 0.006, 0.05  # levels of detail; below there are only steps
 
 
-def ring_directions(fineness: float, furnished: bool) -> Array:
+def ring_directions(fineness: float, furnished: bool) -> np.ndarray:
     """Where the rings of the stadium have corners."""
     if furnished:
         return directions(steps(2 * fineness, 1))

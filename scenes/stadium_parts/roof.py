@@ -3,8 +3,8 @@
 
 import numpy as np
 
-from model.meshes import joined, repeated
-from model.shapes import box, steps, tubes
+from model.meshes import X, joined, repeated, rotated
+from model.shapes import box, quad, steps, surface, tubes
 
 from . import plan
 
@@ -18,7 +18,8 @@ THICKNESS = 0.35
 ROOT, TIP = 4.2, 0.9  # heights of a truss
 PANELS = 9  # of a truss
 CHORD, BRACE, RING = 0.17, 0.09, 0.11  # radii of tubes
-FLOODLIGHTS = 4, 7  # lamps of a rack
+FLOODLIGHTS = 4, 7  # rows and columns of lamps in a rack
+TILT = 0.61  # of a rack, downwards
 
 
 def skin_height(offset: Array | float) -> Array | float:
@@ -77,28 +78,18 @@ def columns(angles: Array, sides: int) -> Array:
 
 def floodlight() -> Array:
     """A lamp that looks along z: a box that opens into a flat funnel."""
-    back, front = 0.13, 0.2
     corners = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)], dtype=float)
-
-    def square(half: float, z: float) -> Array:
-        return np.concatenate([corners * half, np.full((4, 1), z)], axis=1)
-
-    rims = np.stack([square(back, -0.2), square(back, 0.0), square(front, 0.22)], axis=1)
-    following = np.roll(rims, -1, axis=0)
-    sides = [np.stack([rims[:, i], following[:, i], following[:, i + 1]], axis=1)
-             for i in range(2)]
-    others = [np.stack([rims[:, i], following[:, i + 1], rims[:, i + 1]], axis=1)
-              for i in range(2)]
-    plates = [rims[[0, 1, 2], i] for i in (0, 1)] + [rims[[0, 2, 3], i] for i in (0, 1)]
-    return joined(*sides, *others, np.array(plates))
+    rims = np.stack([np.concatenate([corners * half, np.full((4, 1), z)], axis=1)
+                     for half, z in ((0.13, -0.2), (0.13, 0.0), (0.2, 0.22))], axis=1)
+    return joined(surface(rims, closed_u=True), quad(*rims[:, 0]), quad(*rims[:, 1]))
 
 
 def rack() -> Array:
     """Rows of floodlights on a frame, that hang from the origin and look along z."""
-    rows, columns_ = FLOODLIGHTS
-    lamps = [floodlight() + np.array([(i - (columns_ - 1) / 2) * 0.5, -0.6 - 0.5 * j, 0.0])
-             for i in range(columns_) for j in range(rows)]
-    width, height = columns_ * 0.25 + 0.1, rows * 0.5 + 0.4
+    rows, across = FLOODLIGHTS
+    lamps = [floodlight() + np.array([(i - (across - 1) / 2) * 0.5, -0.6 - 0.5 * j, 0.0])
+             for i in range(across) for j in range(rows)]
+    width, height = across * 0.25 + 0.1, rows * 0.5 + 0.4
     posts = [box((x - 0.05, -height, -0.32), (x + 0.05, 0.5, -0.22)) for x in (-width, 0, width)]
     beams = [box((-width, y - 0.04, -0.22), (width, y + 0.04, -0.16))
              for y in (-0.6 - 0.5 * np.arange(rows)).tolist()]
@@ -108,19 +99,16 @@ def rack() -> Array:
 def floodlights() -> Array:
     """Racks between the trusses, tilted towards the pitch."""
     angles = plan.bays([0.5]).reshape(-1)
-    tilt = np.array([[1, 0, 0], [0, 0.82, -0.572], [0, 0.572, 0.82]])  # about 35 degrees
-    mesh = rack()
-    y, z = mesh[..., 1].copy(), mesh[..., 2].copy()
-    mesh[..., 1], mesh[..., 2] = tilt[1, 1] * y + tilt[1, 2] * z, tilt[2, 1] * y + tilt[2, 2] * z
     offset = INNER + 0.8
-    return repeated(mesh, plan.facing_in(angles),
+    return repeated(rotated(rack(), X, TILT), plan.facing_in(angles),
                     plan.at(angles, skin_height(offset) - THICKNESS - 0.5, offset))
 
 
 def roof(angles: Array, fineness: float) -> Array:
     """The skin's rings have corners at these angles."""
-    parts = [skin(angles, steps(5 * fineness, 1)),
-             beams(angles, np.array([INNER]), 0.5, 1.1)]
+    parts = [skin(angles, steps(5 * fineness, 1))]
+    if fineness > 0.07:
+        parts.append(beams(angles, np.array([INNER]), 0.5, 1.1))
     if fineness > 0.28:
         stations, sides = plan.bays([0]).reshape(-1), steps(6 * fineness, 3)
         parts += [trusses(stations, sides), rings(angles, sides), columns(stations, sides)]

@@ -31,7 +31,7 @@ class Tier:
     offset: float  # of the first row from the edge of the arena
     height: float
     depth: float  # of all rows
-    rise: float
+    rise: float  # from the first row to what is behind the last
     rows: int
     entrance_row: int
     entrance_bays: Array
@@ -40,7 +40,10 @@ class Tier:
         return self.offset + self.depth * row / self.rows
 
     def row_height(self, row: Array | int) -> Array | float:
-        return self.height + self.rise * row / self.rows
+        return self.height + self.step_height() * row
+
+    def step_height(self) -> float:
+        return self.rise / self.rows
 
     def profile(self) -> list[tuple[float, float]]:
         """From the front edge of the first row to the back edge of the last."""
@@ -52,13 +55,13 @@ class Tier:
 
     def entrance_rows(self) -> tuple[int, int]:
         """The first row that an entrance takes, and the first one above its door."""
-        needed = int(HEADROOM / (self.rise / self.rows)) + 1
+        needed = int(HEADROOM / self.step_height()) + 1
         return self.entrance_row, min(self.entrance_row + needed, self.rows - 1)
 
 
 def tiers(coarseness: float, furnished: bool) -> tuple[Tier, Tier]:
     """The lower and the upper tier; rows are that many times as deep as they should be."""
-    lower, upper = steps(20 / coarseness, 1), steps(19 / coarseness, 1)
+    lower, upper = steps(20 / coarseness, 2), steps(19 / coarseness, 3)
     bays = np.arange(plan.BAYS if furnished else 0)
     return (Tier(1.9, 0.9, 16.6, 7.6, lower, lower // 3, bays[0::2]),
             Tier(18.8, 13.0, 16.6, 11.4, upper, upper // 5, bays[1::2]))
@@ -90,7 +93,7 @@ def steps_of(tier: Tier, angles: Array) -> Array:
 def stairs(tier: Tier) -> Array:
     """A step of half the height between each two rows."""
     angles = plan.bays([0]).reshape(-1)
-    rise, depth = tier.rise / tier.rows, tier.depth / tier.rows
+    rise, depth = tier.step_height(), tier.depth / tier.rows
     return joined(plan.bent_boxes(
         angles, STAIR_WIDTH, (tier.row_height(row) - 0.02, tier.row_height(row) + rise / 2),
         (tier.row_offset(row) + depth / 2, tier.row_offset(row + 1) + 0.02))
@@ -140,18 +143,19 @@ def front_wall(lower: Tier) -> list[tuple[float, float]]:
 def between_tiers(lower: Tier, upper: Tier) -> list[tuple[float, float]]:
     """Profile from the last row of the lower tier to the first row of the upper one, by way of the
     concourse, its back wall, and the front of the upper tier."""
-    back, floor = lower.row_offset(lower.rows), lower.row_height(lower.rows - 1)
+    back, floor = lower.row_offset(lower.rows), lower.row_height(lower.rows)
     edge, top = upper.offset - GANGWAY, upper.height + PARAPET
-    return [(back, floor), (back + CONCOURSE, floor), (back + CONCOURSE, SOFFIT),
+    return [(back, floor - lower.step_height()), (back, floor), (back + CONCOURSE, floor), (back + CONCOURSE, SOFFIT),
             (edge + 1.2, SOFFIT), (edge + 0.3, SOFFIT + 0.35), (edge, SOFFIT + 0.5), (edge, top),
             (edge + 0.2, top), (edge + 0.2, upper.height), (upper.offset, upper.height)]
 
 
 def back_wall(upper: Tier) -> list[tuple[float, float]]:
     """Profile behind the last row of the upper tier, and of the outer face of the stadium."""
-    back, floor = upper.row_offset(upper.rows), upper.row_height(upper.rows - 1)
-    return [(back, floor), (back + 1.2, floor), (back + 1.2, floor + 1.6),
-            (back + 1.5, floor + 1.6), (back + 1.5, 0)]
+    back, floor = upper.row_offset(upper.rows), upper.row_height(upper.rows)
+    top = floor + PARAPET
+    return [(back, floor - upper.step_height()), (back, floor), (back + 1.2, floor),
+            (back + 1.2, top), (back + 1.5, top), (back + 1.5, 0)]
 
 
 def without_small(profile: list[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -165,7 +169,7 @@ def without_small(profile: list[tuple[float, float]]) -> list[tuple[float, float
 
 def box_fronts(lower: Tier) -> Array:
     """Posts and low walls of the boxes at the back of the concourse."""
-    back, floor = lower.row_offset(lower.rows), lower.row_height(lower.rows - 1)
+    back, floor = lower.row_offset(lower.rows), lower.row_height(lower.rows)
     count = plan.BAYS * 4
     return joined(
         plan.bent_boxes(plan.evenly(count), 0.18, (floor - 0.1, SOFFIT + 0.1),

@@ -4,7 +4,6 @@
 import numpy as np
 
 from model.meshes import joined, moved, rotated, scaled, Y
-from model.portable import PI
 from model.shapes import lathe, rounded_box, spline, steps, tubes
 
 from .teapot import teapot
