@@ -26,7 +26,7 @@ RAIL_RADIUS = 0.035
 
 @dataclass
 class Tier:
-    """Rows of steps on which seats stand; the first step is a gangway."""
+    """Rows of steps on which seats stand."""
 
     offset: float  # of the first row from the edge of the arena
     height: float
