@@ -69,6 +69,19 @@ def power(base: Array | float, exponent: float) -> Array:
     return np.where(base > 0, exp(exponent * log(positive)), 0.0)
 
 
+def angle(x: Array, y: Array) -> Array:
+    """Angle of the vector (x, y) from the x axis, -pi to pi; 0 for the vector of length 0."""
+    low, high = np.minimum(np.abs(x), np.abs(y)), np.maximum(np.abs(x), np.abs(y))
+    t = low / np.where(high > 0, high, 1)
+    for _ in range(2):  # arctan(t) = 2 arctan(t / (1 + sqrt(1 + t²)))
+        t = t / (1 + np.sqrt(1 + t * t))
+    coefficients = [(-1)**i / (2 * i + 1) for i in range(11)]
+    arctangent = 4 * t * _polynomial(t * t, coefficients[::-1])
+    arctangent = np.where(np.abs(y) > np.abs(x), PI / 2 - arctangent, arctangent)
+    arctangent = np.where(np.asarray(x) < 0, PI - arctangent, arctangent)
+    return np.where(np.asarray(y) < 0, -arctangent, arctangent)
+
+
 def smoothstep(low: float, high: float, x: Array | float) -> Array:
     """0 below low, 1 above high, with a horizontal tangent at both."""
     t = np.clip((np.asarray(x, dtype=float) - low) / (high - low), 0, 1)
