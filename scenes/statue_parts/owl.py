@@ -21,7 +21,7 @@ STEEPNESS = 2.2  # of the relief
 RELIEF = 0.5  # the relief of a part does not matter farther from its surface than this
 
 HEAD = np.array([0, 9.15, 0.45])
-HEAD_TURN = 0.3  # radians, towards x
+HEAD_TURN = -0.32  # radians, towards x
 EYE = (0.98, 0.05, 1.42)  # in the frame of the head, as all of the face
 EYE_RADIUS = 0.66
 
@@ -72,8 +72,8 @@ def _plumage(across: Array, rows: Array, along: Array, barbs: float) -> Array:
         u = np.abs(column - np.floor(column) - 0.5)
         taper = np.maximum(w - 0.55, 0) / 1.1
         inside = smoothstep(0, 0.22, 1 - (u / 0.56)**2 - taper * taper)
-        shaft = 0.16 * np.maximum(1 - u / 0.06, 0)
-        phase = along * barbs - u * 5
+        shaft = 0.16 * np.maximum(1 - u / 0.09, 0)
+        phase = along * barbs - u * 3
         barb = 0.13 * np.abs(2 * (phase - np.floor(phase)) - 1)
         arch = 0.25 * (1 - 3 * u * u)
         height = np.maximum(height, inside * (0.1 + 0.42 * w + arch + shaft + barb) * 0.8)
@@ -102,7 +102,7 @@ def _body_feathers(p: Array) -> Array:
     wander = _noise(p, 0.45, 11)
     rows = -p[1] / 0.56 + 0.55 * wander + 0.5 * _noise(p, 0.9, 12)
     across = angle(p[2] + 0.4, p[0]) * (24 / (2 * PI)) + 0.3 * _noise(p, 0.7, 13)
-    feathers = _plumage(across, rows, -p[1] + 0.3 * wander, 6.5)
+    feathers = _plumage(across, rows, -p[1] + 0.3 * wander, 3.8)
     return 0.19 * feathers + 0.05 * _noise(p, 1.6, 14)
 
 
@@ -123,7 +123,7 @@ def _wing_feathers(frame: Array) -> Array:
     wander = _noise(frame, 0.5, 21)
     t = np.clip((along + WING_HALF[0]) / (2 * WING_HALF[0]), 0, 1)
     rows = 11 * t * (1.75 - 0.85 * t) + 0.3 * wander - 0.12 * across * across
-    feathers = _plumage(across / 0.62 + 0.2 * wander, rows, along, 5.5)
+    feathers = _plumage(across / 0.62 + 0.2 * wander, rows, along, 3.4)
     return (0.18 + 0.08 * t) * feathers
 
 
@@ -152,7 +152,7 @@ def _head_relief(q: Array) -> Array:
     wander = _noise(q, 0.8, 31)
     rows = -q[2] / 0.42 + 0.6 * wander
     across = angle(q[1] + 0.2, q[0]) * (22 / (2 * PI)) + 0.3 * wander
-    plumage = 0.12 * _plumage(across, rows, -q[2], 7)
+    plumage = 0.12 * _plumage(across, rows, -q[2], 4.5)
     turn = angle(x, y) * (23 / PI) + 0.5 * wander
     ray = np.abs(2 * (turn - np.floor(turn)) - 1)
     tier = r * 2.9 + 0.3 * ray
@@ -178,7 +178,7 @@ def _with_eye(head: Array, m: Array) -> Array:
     ball = _ball(m, EYE, EYE_RADIUS)
     x, y = m[0] - EYE[0] - 0.02, m[1] - EYE[1]
     r = np.sqrt(x * x + y * y)
-    pupil = np.maximum(r - 0.26, EYE[2] + 0.4 - m[2])
+    pupil = np.maximum(r - 0.26, EYE[2] + 0.05 - m[2])
     iris = 0.035 * smoothstep(0.05, 0.0, np.abs(r - 0.46))
     eye = smooth_max(ball + iris, -pupil, 0.05)
     ring = np.sqrt((r - 0.67)**2 + (m[2] - EYE[2] - 0.14)**2) - 0.1

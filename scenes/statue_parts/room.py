@@ -6,26 +6,28 @@ import numpy as np
 from model import vectors
 from model.meshes import joined, moved, rotated, Y
 from model.portable import PI, Random, cos, sin, smoothstep
-from model.shapes import box, circle, extruded, lathe, quad, steps, surface
+from model.shapes import box, circle, extruded, lathe, polygon, quad, steps, surface
 
 from .mouldings import around_pilaster, panel_frame, profile, straight
 
 Array = np.ndarray
 
-HALF_WIDTH, HEIGHT, DEPTH = 22.0, 44.0, 46.0
+HALF_WIDTH, HEIGHT, DEPTH = 22.0, 44.0, 50.0
 NICHE_RADIUS, NICHE_FLOOR, SPRINGLINE = 7.2, 1.6, 21.6
 FLUTES = 13  # of the shell
 PILASTER_X, PILASTER_HALF, PILASTER_DEPTH = 10.6, 1.3, 0.7
 PILASTER_FOOT, PILASTER_TOP = 4.2, 28.2
 ENTABLATURE = 29.6
-WINDOW_Y, WINDOW_Z, REVEAL = (17.0, 38.0), (9.0, 29.0), 3.0
+WINDOW_Y, WINDOW_Z, REVEAL = (20.0, 41.0), (8.0, 26.0), 0.6
+PANE_DISTANCE = 2.0  # from the reveal: a light that touched it would make noise
 TILE, JOINT = 3.6, 0.14
 BAY = 16.9  # the middle between a pilaster and a side wall
 
 
 def window() -> Array:
-    """The pane from which the light comes, behind its reveal in the left wall."""
-    x, (y0, y1), (z0, z1) = -HALF_WIDTH - REVEAL, WINDOW_Y, WINDOW_Z
+    """A bright sky outside the window in the left wall."""
+    x, (y0, y1), (z0, z1) = -HALF_WIDTH - REVEAL - PANE_DISTANCE, WINDOW_Y, WINDOW_Z
+    y0, y1, z0, z1 = y0, y1 + 2, z0 - 1, z1 + 1
     return quad((x, y0, z1), (x, y0, z0), (x, y1, z0), (x, y1, z1))
 
 
@@ -39,9 +41,10 @@ def _shell(detail: float) -> list[Array]:
     """Walls, ceiling and reveal of the window; the end wall leaves out the niche."""
     w, h, d = HALF_WIDTH, HEIGHT, DEPTH
     arch = _arch_points(detail)[:, :2]
-    outer = np.clip(arch * np.array([9, 1]), -w, w)
-    outer[:, 1] = np.where(np.abs(outer[:, 0]) < w, h, outer[:, 1])
-    outer[:, 1] = np.where(np.abs(arch[:, 0]) < NICHE_RADIUS * 0.72, h, arch[:, 1])
+    x, y = arch[:, 0], arch[:, 1]
+    upper = np.abs(x) < 0.7 * NICHE_RADIUS
+    outer = np.stack([np.where(upper, x * (w / NICHE_RADIUS / 0.7), np.where(x > 0, w, -w)),
+                      np.where(upper, h, y)], axis=-1)
     flat = [np.concatenate([points, np.zeros((len(points), 1))], axis=1)
             for points in (arch, outer)]
     r, spring = NICHE_RADIUS, SPRINGLINE
@@ -86,8 +89,8 @@ def _semidome(rim: Array, detail: float) -> Array:
     flute = np.arange(len(rim)) * (FLUTES / (len(rim) - 1))
     groove = 2 * np.abs(flute - np.floor(flute) - 0.5)
     hollow = np.sqrt(1 - groove * groove * groove)
-    depth = 0.7 * sin(polar) * smoothstep(1, 0.93, polar / (PI / 2) * (0.95 + 0.05 * groove[:, np.newaxis]))
-    depth = depth * smoothstep(0.02, 0.2, polar)
+    fading = smoothstep(0.02, 0.2, polar) * smoothstep(1, 0.94, polar / (PI / 2))
+    depth = 0.7 * sin(polar) * fading
     radius = NICHE_RADIUS + depth * hollow[:, np.newaxis]
     x = radius * sin(polar) * rim[:, :1]
     y = radius * sin(polar) * rim[:, 1:]
@@ -101,8 +104,8 @@ def _impost(detail: float) -> Array:
     rim = _arch_points(detail)[:, 2:]
     radius = NICHE_RADIUS + section[:, 0]
     height = np.broadcast_to(section[:, 1], (len(rim), len(section)))
-    ring = [rim[:, :1] * radius, height + SPRINGLINE, -rim[:, 1:] * radius]
-    return surface(np.stack(ring, axis=-1))
+    ring = np.stack([rim[:, :1] * radius, height + SPRINGLINE, -rim[:, 1:] * radius], axis=-1)
+    return joined(surface(ring), polygon(ring[0]), polygon(ring[-1, ::-1]))
 
 
 def _archivolt(detail: float) -> list[Array]:
@@ -118,11 +121,11 @@ def _archivolt(detail: float) -> list[Array]:
     points = np.stack([path[:, :1] * radius, path[:, 1:2] * radius + path[:, 3:],
                        np.broadcast_to(section[:, 1], (len(path), len(section)))], axis=-1)
     top = SPRINGLINE + NICHE_RADIUS
-    key = [(-0.55, top - 0.3, -0.05), (0.55, top - 0.3, -0.05), (0.95, top + 1.75, -0.05),
-           (-0.95, top + 1.75, -0.05)]
-    face = [(-0.4, top - 0.05, 0.95), (0.4, top - 0.05, 0.95), (0.72, top + 1.5, 1.15),
-            (-0.72, top + 1.5, 1.15)]
-    return [surface(points), extruded(key, (0, 0, 0.95)), extruded(face, (0, 0, 0.2))]
+    key = [(-0.75, top - 0.35, -0.05), (0.75, top - 0.35, -0.05), (1.15, top + 1.7, -0.05),
+           (-1.15, top + 1.7, -0.05)]
+    face = [(-0.5, top - 0.1, 0.75), (0.5, top - 0.1, 0.75), (0.85, top + 1.45, 0.75),
+            (-0.85, top + 1.45, 0.75)]
+    return [surface(points), extruded(key, (0, 0, 0.85)), extruded(face, (0, 0, 0.35))]
 
 
 def _pilasters(detail: float) -> list[Array]:
@@ -216,13 +219,13 @@ def _floor(detail: float) -> list[Array]:
 def pedestal(height: float, detail: float) -> list[Array]:
     """Round and fluted, on a stepped base; it stands at the height 0."""
     segments = 24 * steps(8 * np.sqrt(detail), 1)
-    base = profile([(4.6, -0.1), (4.6, 0.7), (4.3, 0.75), (4.3, 1.45, 0.95), (3.95, 1.5),
-                    (3.7, 1.95, -0.5), (3.75, 2.0), (3.75, 2.35, 0.9), (3.45, 2.4),
-                    (3.2, 2.8, -0.4)], detail)
-    top = profile([(3.1, height - 2.2), (3.3, height - 2.0, 0.9), (3.1, height - 1.8),
-                   (3.15, height - 1.5), (4.0, height - 0.85, 0.45), (4.3, height - 0.8),
-                   (4.3, height - 0.15), (4.15, height), (0, height)], detail)
-    return [lathe(base, segments), lathe(top, segments), _drum(3.2, 2.7, height - 2.1, segments)]
+    base = profile([(5.3, -0.1), (5.3, 0.6), (5.0, 0.65), (5.0, 1.25, 0.95), (4.65, 1.3),
+                    (4.4, 1.7, -0.5), (4.45, 1.75), (4.45, 2.05, 0.9), (4.2, 2.1),
+                    (3.95, 2.4, -0.4)], detail)
+    top = profile([(3.85, height - 1.9), (4.05, height - 1.7, 0.9), (3.85, height - 1.5),
+                   (3.9, height - 1.3), (4.7, height - 0.75, 0.45), (5.0, height - 0.7),
+                   (5.0, height - 0.15), (4.85, height), (0, height)], detail)
+    return [lathe(base, segments), lathe(top, segments), _drum(3.95, 2.3, height - 1.8, segments)]
 
 
 def _drum(radius: float, bottom: float, top: float, segments: int) -> Array:
