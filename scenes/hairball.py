@@ -17,15 +17,15 @@ SEED = 12
 LOCKS = 170  # bundles of strands that share their way
 STRANDS, SEGMENTS, SIDES = 2150, 115, 3  # of the standard scene
 KNOTS, STRIDE = 80, 2.6  # of a lock's way, and their distance
-THICKNESS = 0.052  # mean radius of a strand
-SPREAD = 1.5  # of the strands of a lock
-LOOSE = 0.16  # share of the strands whose ends stand out
+THICKNESS = 0.066  # mean radius of a strand
+SPREAD = 1.25  # of the strands of a lock
+LOOSE = 0.22  # share of the strands whose ends stand out
 SOFT = 2.5  # height of the layer that the floor presses flat
 BATCH = 512  # strands at a time
 
-STUDIO_X, STUDIO_Y, BACK, FRONT = 80.0, 90.0, -58.0, 96.0
+STUDIO_X, STUDIO_Y, BACK, FRONT = 92.0, 92.0, -58.0, 96.0
 BEND = 34.0  # radius of the curve from floor to backdrop
-SOFTBOX_EXITANCE, RIM_EXITANCE = 14, 9
+SOFTBOX_EXITANCE, RIM_EXITANCE = 16, 18
 
 
 def build(detail: float) -> Model:
@@ -43,12 +43,18 @@ def _hair(detail: float) -> Array:
     for first in range(0, count, BATCH):
         index = np.arange(first, min(first + BATCH, count))
         paths = _strands(random, ways[index % len(ways)], segments + 1)
-        relative = 0.55 + 1.3 * random.uniform(0, 1, len(index))**4 + 0.25 * (index % 5 == 0)
         along = np.arange(segments + 1) / segments
-        tapered = 0.25 + 0.75 * smoothstep(0, 0.06, along) * smoothstep(1, 0.94, along)
-        radius = thickness * relative[:, np.newaxis] * tapered
+        tapered = 0.35 + 0.65 * smoothstep(0, 0.04, along) * smoothstep(1, 0.96, along)
+        radius = thickness * _relative_thickness(random, len(index))[:, np.newaxis] * tapered
         meshes.append(tubes(paths, radius, SIDES))
     return joined(meshes)
+
+
+def _relative_thickness(random: Random, count: int) -> Array:
+    """Mostly fine hair, and a few bristles."""
+    rank = random.uniform(0, 1, count)
+    squared = rank * rank
+    return 0.65 + 1.7 * squared * squared * squared
 
 
 def _ways(random: Random, count: int) -> Array:
@@ -57,7 +63,8 @@ def _ways(random: Random, count: int) -> Array:
     start = random.direction(LOCKS)[:count]
     drift = random.uniform(-1, 1, (LOCKS, 9, 3))[:count]
     depth = random.uniform(0, 1, (LOCKS, 14))[:count]
-    radius = RADIUS * (0.42 + 0.56 * np.sqrt(spline(depth[..., np.newaxis], KNOTS)[..., 0].clip(0, 1)))
+    depth = np.clip(spline(depth[..., np.newaxis], KNOTS)[..., 0], 0, 1)
+    radius = RADIUS * (0.42 + 0.56 * np.sqrt(depth))
     turns = spline(drift, KNOTS)
     axis = vectors.perpendicular(start)
     direction, ways = start, []
@@ -77,10 +84,10 @@ def _strands(random: Random, ways: Array, samples: int) -> Array:
     offset = random.uniform(-1, 1, (count, 1, 3)) + 0.55 * random.uniform(-1, 1, (count, 17, 3))
     slip = random.uniform(0, 1, (count, 4))
     along = np.arange(samples) / (samples - 1)
-    tightness = 0.65 + 0.35 * cos(along * 9 + 2 * PI * slip[:, :1])
+    tightness = 0.62 + 0.38 * cos(along * 12 + 2 * PI * slip[:, :1])
     paths = spline(ways, samples) + SPREAD * tightness[..., np.newaxis] * spline(offset, samples)
-    free = smoothstep(0.9, 1.0, along) * (slip[:, 1:2] < LOOSE)
-    out = free * (0.12 + 0.3 * slip[:, 2:3])
+    free = smoothstep(0.87, 1.0, along) * (slip[:, 1:2] < LOOSE)
+    out = free * (0.1 + 0.35 * slip[:, 2:3])
     paths = paths * (1 + out[..., np.newaxis])
     paths = moved(paths, y=RADIUS - 0.6)
     height = paths[..., 1] - THICKNESS * 2
@@ -90,11 +97,11 @@ def _strands(random: Random, ways: Array, samples: int) -> Array:
 
 
 def _softbox() -> Array:
-    return quad((-42, 82, 34), (-38, 86, -22), (22, 86, -22), (18, 82, 34))
+    return quad((-58, 66, 52), (-50, 84, 2), (6, 84, 2), (-2, 66, 52))
 
 
 def _rim_light() -> Array:
-    return quad((70, 8, -42), (74, 8, -14), (74, 66, -14), (70, 66, -42))
+    return quad((64, 14, -34), (74, 14, -4), (74, 62, -4), (64, 62, -34))
 
 
 def _studio(detail: float) -> list[Array]:

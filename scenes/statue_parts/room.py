@@ -21,6 +21,7 @@ ENTABLATURE = 29.6
 WINDOW_Y, WINDOW_Z, REVEAL = (20.0, 41.0), (8.0, 26.0), 0.6
 PANE_DISTANCE = 2.0  # from the reveal: a light that touched it would make noise
 TILE, JOINT = 3.6, 0.14
+PLAIN = 0.002  # level of detail below which there are neither flutes nor dentils
 BAY = 16.9  # the middle between a pilaster and a side wall
 
 
@@ -68,7 +69,7 @@ def _shell(detail: float) -> list[Array]:
 
 def _arch_points(detail: float) -> Array:
     """The rim of the niche's semidome from right to left, with the directions of its radii."""
-    count = FLUTES * steps(10 * np.sqrt(detail), 1)
+    count = FLUTES * steps(10 * np.sqrt(detail), 1) if detail > PLAIN else 8
     turn = np.arange(count + 1) * (PI / count)
     direction = np.stack([cos(turn), sin(turn)], axis=-1)
     return np.concatenate([direction * NICHE_RADIUS + np.array([0, SPRINGLINE]), direction], axis=1)
@@ -84,7 +85,7 @@ def _niche(detail: float) -> list[Array]:
 
 def _semidome(rim: Array, detail: float) -> Array:
     """A shell, whose flutes fan out from the back of the niche."""
-    count = steps(70 * np.sqrt(detail), 3)
+    count = steps(70 * np.sqrt(detail), 2)
     polar = np.arange(count + 1) * (PI / 2 / count)
     flute = np.arange(len(rim)) * (FLUTES / (len(rim) - 1))
     groove = 2 * np.abs(flute - np.floor(flute) - 0.5)
@@ -150,7 +151,7 @@ def _fluted_shaft(detail: float) -> Array:
     x, z = [-PILASTER_HALF, -PILASTER_HALF], [-0.05, PILASTER_DEPTH]
     pitch = 2 * PILASTER_HALF / 5
     turn = np.arange(count + 1) * (PI / count)
-    for i in range(5):
+    for i in range(5 if detail > PLAIN else 0):
         middle = -PILASTER_HALF + (i + 0.5) * pitch
         x.extend(middle - 0.37 * pitch * cos(turn))
         z.extend(PILASTER_DEPTH - 0.37 * pitch * sin(turn))
@@ -170,7 +171,8 @@ def _entablature(detail: float) -> list[Array]:
     count = steps(56 * np.sqrt(np.sqrt(detail)), 8)
     pitch = 2 * HALF_WIDTH / count
     dentil = box((-0.3 * pitch, y + 2.85, 0.9), (0.3 * pitch, y + 3.25, 1.5))
-    dentils = [moved(dentil, x=-HALF_WIDTH + (i + 0.5) * pitch) for i in range(count)]
+    dentils = [moved(dentil, x=-HALF_WIDTH + (i + 0.5) * pitch)
+               for i in range(count if detail > PLAIN else 0)]
     return [straight(section, -HALF_WIDTH, HALF_WIDTH)] + dentils
 
 
@@ -187,7 +189,7 @@ def _panels(detail: float) -> list[Array]:
 
 def _steps(detail: float) -> list[Array]:
     """Two round steps before the niche; the upper one is its floor."""
-    segments = steps(160 * np.sqrt(detail), 14)
+    segments = steps(160 * np.sqrt(detail), 10)
     return [lathe(profile([(radius - 0.2, y - 0.9), (radius - 0.2, y - 0.35),
                            (radius - 0.1, y - 0.3), (radius - 0.1, y, 1.0), (0, y)], detail),
                   segments) for radius, y in ((11.6, 0.8), (9.6, NICHE_FLOOR))]
@@ -218,7 +220,7 @@ def _floor(detail: float) -> list[Array]:
 
 def pedestal(height: float, detail: float) -> list[Array]:
     """Round and fluted, on a stepped base; it stands at the height 0."""
-    segments = 24 * steps(8 * np.sqrt(detail), 1)
+    segments = 12 * steps(16 * np.sqrt(detail), 1)
     base = profile([(5.3, -0.1), (5.3, 0.6), (5.0, 0.65), (5.0, 1.25, 0.95), (4.65, 1.3),
                     (4.4, 1.7, -0.5), (4.45, 1.75), (4.45, 2.05, 0.9), (4.2, 2.1),
                     (3.95, 2.4, -0.4)], detail)
@@ -240,7 +242,7 @@ def _drum(radius: float, bottom: float, top: float, segments: int) -> Array:
 
 def _vases(detail: float) -> list[Array]:
     """Two different vases on plinths in the bays."""
-    segments = steps(120 * np.sqrt(detail), 7)
+    segments = steps(120 * np.sqrt(detail), 6)
     krater = profile([(1.1, 0), (1.1, 0.2), (0.55, 0.7, -0.4), (0.5, 0.95), (0.62, 1.05, 0.9),
                       (0.5, 1.15), (1.7, 2.6, 0.35), (1.85, 3.4, 0.15), (1.6, 4.6, -0.25),
                       (2.15, 5.2, -0.25), (2.2, 5.35, 0.6), (1.95, 5.35), (1.3, 4.6), (0, 4.4)],
