@@ -3,7 +3,6 @@
 
 import numpy as np
 
-from model import vectors
 from model.meshes import joined, moved, rotated, Y
 from model.portable import PI, Random, cos, sin, smoothstep
 from model.shapes import box, circle, extruded, lathe, polygon, quad, steps, surface
@@ -43,9 +42,10 @@ def _shell(detail: float) -> list[Array]:
     w, h, d = HALF_WIDTH, HEIGHT, DEPTH
     arch = _arch_points(detail)[:, :2]
     x, y = arch[:, 0], arch[:, 1]
-    upper = np.abs(x) < 0.7 * NICHE_RADIUS
-    outer = np.stack([np.where(upper, x * (w / NICHE_RADIUS / 0.7), np.where(x > 0, w, -w)),
-                      np.where(upper, h, y)], axis=-1)
+    upper = np.abs(x) < 0.75 * NICHE_RADIUS  # some of these points meet in the corners
+    spread = np.clip(x * (w / NICHE_RADIUS / 0.65), -w, w)
+    outer = np.stack([np.where(upper, spread, np.where(x > 0, w, -w)), np.where(upper, h, y)],
+                     axis=-1)
     flat = [np.concatenate([points, np.zeros((len(points), 1))], axis=1)
             for points in (arch, outer)]
     r, spring = NICHE_RADIUS, SPRINGLINE
