@@ -25,7 +25,7 @@ BATCH = 512  # strands at a time
 
 STUDIO_X, STUDIO_Y, BACK, FRONT = 92.0, 92.0, -58.0, 96.0
 BEND = 34.0  # radius of the curve from floor to backdrop
-SOFTBOX_EXITANCE, RIM_EXITANCE = 16, 18
+SOFTBOX_EXITANCE, RIM_EXITANCE = 18, 8
 
 
 def build(detail: float) -> Model:
