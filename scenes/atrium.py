@@ -9,7 +9,7 @@ import numpy as np
 
 from atrium_parts import arcade, cloth, shell, vessels
 from atrium_parts.level import Level
-from atrium_parts.plan import (BAY, HALF_X, HALF_Z, RAIL, SPRING, WALK, Stations, placed, stations,
+from atrium_parts.plan import (BAY, RAIL, RIDGE, SPRING, WALK, Stations, placed, stations,
                                united)
 from model.generator import Model, run
 from model.meshes import joined, moved, scaled
@@ -19,7 +19,7 @@ Array = np.ndarray
 
 STANDARD = 0.3  # the level of the parts at which the scene has about 300 thousand triangles
 SKY = 18.0  # its height
-SKY_X, SKY_Z = (-14.0, 34.0), (-11.0, 10.5)
+SKY_X, SKY_Z = (-14.0, 34.0), (-34.0, 10.5)
 SKY_EXITANCE = 2.2
 SUN = -5.0, -9.2  # its middle
 SUN_HALF = 0.6
@@ -28,6 +28,12 @@ SUN_EXITANCE = 4200.0
 
 def rectangle(x: tuple[float, float], z: tuple[float, float]) -> Array:
     return quad((x[0], SKY, z[0]), (x[1], SKY, z[0]), (x[1], SKY, z[1]), (x[0], SKY, z[1]))
+
+
+def horizon() -> Array:
+    """Where the sky comes down behind one end."""
+    x, (z0, z1) = SKY_X[1], SKY_Z
+    return quad((x, RIDGE, z0), (x, RIDGE, z1), (x, SKY, z1), (x, SKY, z0))
 
 
 def sun_edges() -> tuple[tuple[float, float], tuple[float, float]]:
@@ -39,7 +45,7 @@ def sky() -> Array:
     """A rectangle with a hole for the sun."""
     x, z = sun_edges()
     return joined(rectangle((SKY_X[0], x[0]), SKY_Z), rectangle((x[1], SKY_X[1]), SKY_Z),
-                  rectangle(x, (SKY_Z[0], z[0])), rectangle(x, (z[1], SKY_Z[1])))
+                  rectangle(x, (SKY_Z[0], z[0])), rectangle(x, (z[1], SKY_Z[1])), horizon())
 
 
 BANNERS = [(0, -2.5, 3.9), (0, 0.5, 4.3), (0, 2.5, 3.9), (2, -2.5, 3.9), (2, -0.5, 4.3),
@@ -52,8 +58,9 @@ def banners(level: Level) -> Array:
     width, reach, y = 1.25, 0.62, 8.0
     parts = []
     for seed, (side, bay, length) in enumerate(BANNERS):
-        hanging = joined(cloth.banner(level, width, length, seed),
-                         cloth.bracket(level, width, reach - 0.1))
+        hanging = cloth.banner(level, width, length, seed)
+        if level.has(0.02):
+            hanging = joined(hanging, cloth.bracket(level, width, reach - 0.1))
         parts.append(placed(hanging, stations(side, [bay * BAY + BAY / 4], y, -reach)))
     return joined(parts)
 
@@ -70,6 +77,8 @@ def curtains(level: Level) -> Array:
 def swags(level: Level) -> Array:
     """Along the balustrade of both ends."""
     parts = []
+    if level.coarse:
+        return joined()
     for side in (1, 3):
         for i in range(6):
             hanging = cloth.swag(level, BAY / 2 - 0.04, 0.62, 200 + 10 * side + i)

@@ -36,7 +36,7 @@ def wall_above_arch(level: Level, width: float, radius: float, spring: float, to
 
 
 def lower_arch(level: Level) -> Array:
-    segments = level.segments(28, 3)
+    segments = level.segments(28, 2)
     parts = [wall_above_arch(level, BAY, ARCH, SPRING, STRING_COURSE + 0.1, WALL, segments)]
     if level.has(0.02):
         profile = level.outline([(0, 0.001), (0.05, 0.001), (0.05, 0.075), (0.065, 0.085, 0.3),
@@ -143,7 +143,16 @@ def upper_arch(level: Level) -> Array:
     return joined(parts)
 
 
+def upper_masses() -> Array:
+    """Every other colonnette, and a lintel for the arches."""
+    lintel = ring(np.array([(UPPER_WALL, UPPER_SPRING + 0.3), (UPPER_WALL, ENTABLATURE + 0.1)]), 0)
+    post = lathe([(0.12, RAIL), (0.12, UPPER_SPRING + 0.3)], 4)
+    return joined(lintel, placed(post, between(BAY)))
+
+
 def upper_storey(level: Level) -> Array:
+    if level.coarse:
+        return joined(upper_masses(), placed(order.upper_pier(level), corners()))
     return joined(placed(upper_arch(level), evenly(UPPER_BAY)),
                   placed(order.colonnette(level), between(UPPER_BAY)),
                   placed(order.upper_pier(level), corners()))
@@ -199,6 +208,8 @@ def transverse_arch(level: Level) -> Array:
 
 
 def vaults(level: Level) -> Array:
+    if level.coarse:
+        return ring(np.array([(0, SPRING + 1.5), (-BACK, SPRING + 1.5)]), 0)
     ribs = united([between(BAY), *(stations(side, [half_length(side), -half_length(side)])
                                    for side in SIDES)])
     cornering = united([stations(side, [half_length(side) + (BACK + WALL) / 2])

@@ -45,7 +45,7 @@ def banner(level: Level, width: float, length: float, seed: int) -> Array:
     y = -0.055 - sag - t * (length + hem)
     z = depth * front + 0.12 * t * t * noise(u * 0.8, t * 1.1, seed + 80)
     points = np.stack(np.broadcast_arrays(x, y, z), axis=-1)
-    return joined(surface(points), rod(level, width, folds))
+    return surface(points) if level.coarse else joined(surface(points), rod(level, width, folds))
 
 
 def rod(level: Level, width: float, rings: int) -> Array:
@@ -90,6 +90,8 @@ def curtain(level: Level, width: float, length: float, seed: int) -> Array:
     y = -t * length - drop * above * (1 - below) - 0.25 * slack * (1 - t)
     z = depth * front * (0.6 + 0.5 * above) + 0.04 * noise(u * 2, t * 2, seed + 90)
     cloth = surface(np.stack(np.broadcast_arrays(x, y, z), axis=-1))
+    if level.coarse:
+        return cloth
     band = 0.1 + width * 0.075
     angle = np.arange(level.segments(16, 4) + 1) * (2 * PI / level.segments(16, 4))
     loop = np.stack([band + (0.05 + width * 0.085) * cos(angle), -tie * length - 0.05 * cos(angle),

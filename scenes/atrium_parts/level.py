@@ -11,6 +11,7 @@ from model.shapes import steps
 Array = np.ndarray
 TOLERANCE = 0.0016  # by which an outline may be off at the standard level
 COARSEST = 0.12
+MASSES = 0.004  # below this level there are but the main masses
 BOW_SAMPLES = 256  # of which an outline keeps those that it needs
 
 
@@ -23,6 +24,10 @@ class Level:
     def segments(self, ideal: float, least: int = 1) -> int:
         """How many segments to give to what has an ideal number of them at the standard level."""
         return steps(ideal * math.sqrt(self.detail), least)
+
+    @property
+    def coarse(self) -> bool:
+        return self.detail < MASSES
 
     def has(self, detail: float) -> bool:
         return self.detail >= detail

@@ -142,12 +142,16 @@ def rosette(level: Level, radius: float) -> Array:
 
 def column(level: Level) -> Array:
     """From the walk to the springing of the arches."""
+    if level.coarse:
+        return lathe([(FOOT, WALK), (NECK, SPRING)], 4)
     return moved(joined(base(level), shaft(level), moved(capital(level), y=SHAFT[1])), y=WALK)
 
 
 def pier(level: Level) -> Array:
     """The square support at a corner of the court."""
     low, high = SHAFT[0], SPRING - WALK
+    if level.coarse:
+        return square(np.array([(0.3, WALK), (0.3, SPRING)]))
     return moved(square(level.outline([
         (0.34, -0.02), (0.34, 0.12), (0.33, 0.2, 0.4), (0.3, 0.2), (0.29, 0.26, -0.3),
         (0.29, low), (0.27, low + 0.02), (0.27, high - 0.42), (0.295, high - 0.4, 0.4),
@@ -194,6 +198,8 @@ def pedestal(level: Level) -> Array:
 def upper_pier(level: Level) -> Array:
     """The corner of the gallery."""
     low, high = GALLERY + 0.2, UPPER_SPRING
+    if level.coarse:
+        return square(np.array([(0.22, low), (0.22, high + 0.3)]))
     return square(level.outline([
         (0.22, low), (0.22, high - 0.3), (0.24, high - 0.28, 0.4), (0.22, high - 0.26, 0.4),
         (0.22, high - 0.14), (0.25, high - 0.05, 0.25), (0.255, high), (0.1, high)]))

@@ -59,8 +59,7 @@ def niche(level: Level, width: float, floor: float, top: float) -> Array:
                            (0, 0.003)])
     bracket = surface(np.array([np.stack([np.full(len(shelf), u), shelf[:, 1] + sill,
                                           -shelf[:, 0]], -1) for u in (-0.66, 0.66)]))
-    from .mouldings import pierced_wall as wall
-    return joined(wall(width, floor - 0.02, top, radius, sill, spring, segments), shell, ledge,
+    return joined(pierced_wall(width, floor - 0.02, top, radius, sill, spring, segments), shell, ledge,
                   bracket, surround(level, radius, sill, spring),
                   skirting(level, -width / 2, width / 2, floor))
 
@@ -111,6 +110,8 @@ def pilasters() -> Stations:
 def walls(level: Level) -> Array:
     top = SPRING + 1.6
     parts = [ring(np.array([(0, -0.05), (0, RIDGE)]), OUTSIDE)]
+    if level.coarse:
+        return joined(parts, ring(np.array([(0, 0), (0, CEILING)]), BACK))
     for floor, height in ((WALK, top), (GALLERY, CEILING + 0.05)):
         parts += [placed(niche(level, BAY, floor, height), bays(False)),
                   placed(door(level, BAY, floor, height), bays(True)),

@@ -66,6 +66,9 @@ def tree(level: Level, seed: int) -> Array:
     middle, radius = np.array([0.0, 2.0, 0.0]), 0.62
     stem = spline(np.array([(0, 0.6, 0), (0.03, 1.0, 0.02), (-0.03, 1.4, -0.02), (0, 1.9, 0)]),
                   level.segments(8, 2) + 1)
+    if level.coarse:
+        return joined(lathe([(0.3, 0), (0.4, 0.7)], 4),
+                      moved(lathe([(0, -0.6), (0.55, 0), (0, 0.6)], 4), *middle))
     parts = [pot(level), tubes(stem, 0.045, level.segments(10, 3))]
     if not level.has(0.05):
         ball = lathe([(0, -0.6), (0.55, -0.2), (0.55, 0.25), (0, 0.6)], 5)
@@ -80,7 +83,6 @@ def tree(level: Level, seed: int) -> Array:
     side = normalized(turn[..., 0] * side[:, :1] + turn[..., 1] * side[:, 1:2]
                       + turn[..., 2] * side[:, 2:])
     size = random.uniform(0.8, 1.25, (len(outward), 1, 1))
-    size = size / max(1.0, level.detail)**0.5 ** 0.5 if False else size
     parts.append(repeated(blade(level), frame(side, cross(along, side), along) * size, position))
     if level.has(0.3):
         fruit = random.direction(16)
@@ -108,7 +110,7 @@ def blade(level: Level) -> Array:
 
 def fountain(level: Level) -> Array:
     """Two round steps, a basin with water, and a bowl on a stem in its middle."""
-    segments = level.segments(96, 8)
+    segments = level.segments(96, 6)
     steps = [(2.6, -0.05), (2.6, 0.11), (2.56, 0.14, 0.3), (2.15, 0.14), (2.15, 0.25),
              (2.11, 0.28, 0.3), (1.5, 0.28)]
     basin = [(1.76, 0.27), (1.76, 0.34), (1.72, 0.38, -0.2), (1.66, 0.42, 0.2), (1.62, 0.72),
@@ -121,6 +123,9 @@ def fountain(level: Level) -> Array:
             (0.86, 2.32, 0.2), (0.82, 2.3), (0.55, 2.15, 0.08), (0.1, 2.1)]
     finial = [(0.1, 2.08), (0.09, 2.3), (0.13, 2.34, 0.5), (0.08, 2.38, 0.5), (0.15, 2.55, 0.25),
               (0.07, 2.7, 0.05), (0.05, 2.72), (0.08, 2.8, 0.4), (0.0, 2.9, 0.2)]
+    if level.coarse:
+        return joined(lathe([(2.4, 0), (1.8, 0.3)], 6), lathe([(1.7, 0.2), (1.8, 1)], 6),
+                      water(level, 1.75, 0.9), lathe([(0.2, 0.8), (0.2, 2.0), (0.9, 2.3)], 4))
     small = level.segments(32, 4)
     parts = [lathe(level.outline(steps), segments), lathe(level.outline(basin), segments),
              lathe(level.outline(stem), small),
