@@ -9,31 +9,33 @@ import numpy as np
 
 from atrium_parts import arcade, cloth, shell, vessels
 from atrium_parts.level import Level
-from atrium_parts.plan import (BAY, RAIL, RIDGE, SPRING, WALK, Stations, placed, stations,
-                               united)
+from atrium_parts.plan import (BAY, HALF_X, HALF_Z, LONG_SIDES, RAIL, SPRING, WALK, placed,
+                               stations)
 from model.generator import Model, run
-from model.meshes import joined, moved, scaled
-from model.shapes import quad
+from model.meshes import Y, joined, moved, rotated, scaled
+from model.portable import PI, cos, sin
+from model.shapes import quad, surface
 
 Array = np.ndarray
 
-STANDARD = 0.3  # the level of the parts at which the scene has about 300 thousand triangles
+STANDARD = 0.25  # the level of the parts at which the scene has about 300 thousand triangles
 SKY = 18.0  # its height
-SKY_X, SKY_Z = (-14.0, 34.0), (-34.0, 10.5)
+SKY_X, SKY_Z = (-13.0, 13.0), (-11.0, 10.5)
+HORIZON = 20.0, 10.0  # where the sky comes down behind the far end of the court
+COVE = 12  # the strips of which its curve consists
 SKY_EXITANCE = 2.2
 SUN = -5.0, -9.2  # its middle
 SUN_HALF = 0.6
-SUN_EXITANCE = 4200.0
+SUN_EXITANCE = 4000.0
+
+BANNERS = [-2, -1, 0.5, 2]  # the places along the long sides, in bays from their middles
+POLE = 8.5  # the height of the banners' poles
+CURTAINS = [(0, -2, 1), (0, 1, -1), (2, 2, -1), (2, -1, 1), (1, -1, 1), (1, 1, -1)]
+# side, bay from its middle, and at which side of the arch the curtain is tied
 
 
 def rectangle(x: tuple[float, float], z: tuple[float, float]) -> Array:
     return quad((x[0], SKY, z[0]), (x[1], SKY, z[0]), (x[1], SKY, z[1]), (x[0], SKY, z[1]))
-
-
-def horizon() -> Array:
-    """Where the sky comes down behind one end."""
-    x, (z0, z1) = SKY_X[1], SKY_Z
-    return quad((x, RIDGE, z0), (x, RIDGE, z1), (x, SKY, z1), (x, SKY, z0))
 
 
 def sun_edges() -> tuple[tuple[float, float], tuple[float, float]]:
@@ -42,26 +44,30 @@ def sun_edges() -> tuple[tuple[float, float], tuple[float, float]]:
 
 
 def sky() -> Array:
-    """A rectangle with a hole for the sun."""
+    """A rectangle with a hole for the sun, and a cove down to the horizon."""
     x, z = sun_edges()
+    angle = np.arange(COVE + 1) * (PI / 2 / COVE)
+    along = SKY_X[1] + (HORIZON[0] - SKY_X[1]) * sin(angle)
+    height = HORIZON[1] + (SKY - HORIZON[1]) * cos(angle)
+    cove = surface(np.array([np.stack([along, height, np.full(COVE + 1, end)], axis=-1)
+                             for end in SKY_Z]))
     return joined(rectangle((SKY_X[0], x[0]), SKY_Z), rectangle((x[1], SKY_X[1]), SKY_Z),
-                  rectangle(x, (SKY_Z[0], z[0])), rectangle(x, (z[1], SKY_Z[1])), horizon())
-
-
-BANNERS = [(0, -2.5, 3.9), (0, 0.5, 4.3), (0, 2.5, 3.9), (2, -2.5, 3.9), (2, -0.5, 4.3),
-           (2, 2.5, 3.9)]  # side, the place in bays from its middle, length
-CURTAINS = [(0, -2, 1), (0, 1, -1), (2, 2, -1), (2, -1, 1), (1, -1, 1), (1, 1, -1)]
-# side, bay from the middle, at which side of the arch it is tied
+                  rectangle(x, (SKY_Z[0], z[0])), rectangle(x, (z[1], SKY_Z[1])), cove)
 
 
 def banners(level: Level) -> Array:
-    width, reach, y = 1.25, 0.62, 8.0
+    """They hang from poles that stand out of the walls above the colonnettes."""
+    width, gap = 1.2, 0.75
     parts = []
-    for seed, (side, bay, length) in enumerate(BANNERS):
-        hanging = cloth.banner(level, width, length, seed)
-        if level.has(0.02):
-            hanging = joined(hanging, cloth.bracket(level, width, reach - 0.1))
-        parts.append(placed(hanging, stations(side, [bay * BAY + BAY / 4], y, -reach)))
+    for side in LONG_SIDES:
+        for i, bay in enumerate(BANNERS if side else BANNERS[::-1]):
+            hand = 1 if side else -1
+            hanging = cloth.banner(level, width, 3.4 + 0.5 * (i % 2), 10 * side + i)
+            if level.has(0.02):
+                hanging = joined(hanging, cloth.stay(level, gap + width / 2))
+            hanging = rotated(hanging, Y, PI / 2)
+            parts.append(placed(hanging, stations(side, [hand * bay * BAY], POLE,
+                                                  -gap - width / 2)))
     return joined(parts)
 
 
@@ -92,9 +98,25 @@ def trees(level: Level) -> Array:
                    for seed, (side, bay) in enumerate(places)])
 
 
-def amphorae() -> Stations:
-    return united([stations(0, np.array([-3, -1, 1, 3]) * BAY, WALK, -0.0 - 0.0),
-                   stations(2, np.array([-3, -1, 1, 3]) * BAY, WALK, 0)])
+def amphorae(level: Level) -> Array:
+    """Around the fountain and in the corners of the court."""
+    if level.coarse:
+        return joined()
+    x, z = HALF_X - 1.45, HALF_Z - 1.45
+    places = [(x, z, 1.25), (-x, z, 1.25), (x, -z, 1.25), (-x, -z, 1.25)]
+    places += [(sx * 1.62, sz * 1.62, 0.8) for sx in (1, -1) for sz in (1, -1)]
+    parts = []
+    for i, (x, z, size) in enumerate(places):
+        jar = rotated(scaled(vessels.amphora(level), size), Y, 0.7 + 1.9 * i)
+        parts.append(moved(jar, x, 0.14 if size < 1 else 0, z))
+    return joined(parts)
+
+
+def benches(level: Level) -> Array:
+    if not level.has(0.01):
+        return joined()
+    return joined([placed(vessels.bench(level), stations(side, [place * BAY], 0, -1.5))
+                   for side in LONG_SIDES for place in (-2.5, 0, 2.5)])
 
 
 def build(detail: float) -> Model:
@@ -103,7 +125,7 @@ def build(detail: float) -> Model:
              arcade.upper_storey(level), arcade.cornice(level), arcade.vaults(level),
              arcade.ceiling(level), shell.walls(level), shell.floors(level), shell.roof(level),
              vessels.fountain(level), banners(level), curtains(level), swags(level),
-             trees(level)]
+             trees(level), amphorae(level), benches(level)]
     x, z = sun_edges()
     return Model(joined(parts), lights=[(sky(), SKY_EXITANCE), (rectangle(x, z), SUN_EXITANCE)])
 

@@ -66,12 +66,13 @@ def rod(level: Level, width: float, rings: int) -> Array:
     return joined(parts)
 
 
-def bracket(level: Level, width: float, reach: float) -> Array:
-    """Two arms that carry a rod at the origin in front of a wall at z = reach."""
-    arm = spline(np.array([(0, -0.02, 0), (0, -0.06, 0.1), (0, -0.05, reach * 0.6),
-                           (0, -0.2, reach)]), level.segments(12, 2) + 1)
-    both = arm + np.array([(-width / 2 - 0.05, 0, 0), (width / 2 + 0.05, 0, 0)])[:, np.newaxis]
-    return tubes(both, 0.018, level.segments(8, 3))
+def stay(level: Level, reach: float) -> Array:
+    """What carries a rod at one end: its way to the wall at x = reach, and a scroll below."""
+    arm = spline(np.array([(-0.1, -0.02, 0), (0.2 * reach, -0.05, 0), (0.8 * reach, -0.3, 0),
+                           (reach - 0.1, -0.55, 0)]), level.segments(16, 2) + 1)
+    straight = np.array([(0.4, 0, 0), (reach, 0, 0)])
+    return joined(tubes(arm, 0.016, level.segments(8, 3)),
+                  tubes(straight, 0.022, level.segments(10, 3)))
 
 
 def curtain(level: Level, width: float, length: float, seed: int) -> Array:

@@ -6,7 +6,7 @@ import numpy as np
 from model.meshes import Y, joined, moved, repeated, scaled
 from model.noise import gradient_noise
 from model.portable import PI, Random, cos, sin
-from model.shapes import circle, lathe, spline, surface, tubes
+from model.shapes import circle, lathe, quad, spline, surface, tubes
 from model.vectors import cross, frame, normalized, perpendicular, rotation
 
 from .level import Level
@@ -73,7 +73,7 @@ def tree(level: Level, seed: int) -> Array:
     if not level.has(0.05):
         ball = lathe([(0, -0.6), (0.55, -0.2), (0.55, 0.25), (0, 0.6)], 5)
         return joined(parts, moved(ball, *middle))
-    outward = random.direction(level_count(level, 1100))
+    outward = random.direction(level_count(level, 3600))
     bumps = 1 + 0.16 * gradient_noise(outward * 2.4 + seed * 7.3)
     reach = radius * bumps * random.uniform(0.72, 1.05, len(outward))
     position = middle + outward * reach[:, np.newaxis]
@@ -106,6 +106,23 @@ def blade(level: Level) -> Array:
     points = [np.stack([side * width, 0.45 * np.abs(side) * width - 0.03 * t * t, 0.13 * t], -1)
               for side in (-1, 0, 1)]
     return surface(np.array(points))
+
+
+def bench(level: Level) -> Array:
+    """A stone slab along x on two scrolled feet."""
+    slab = level.outline([(0.2, 0.4), (0.22, 0.42, 0.3), (0.22, 0.45), (0.25, 0.48, -0.2),
+                          (0.25, 0.51), (0.24, 0.52, 0.3), (0, 0.525)])
+    length = np.array([[sx * (0.6 + r), y, sz * r] for sx, sz in ((-1, -1), (-1, 1), (1, 1), (1, -1))
+                       for r, y in slab.tolist()]).reshape(4, -1, 3)
+    underside = quad(*length[:, 0])
+    foot = level.outline([(0.2, -0.03), (0.2, 0.06), (0.13, 0.12, -0.3), (0.1, 0.22, -0.1),
+                          (0.19, 0.38, -0.2), (0.2, 0.41, 0.3)])
+    both = np.concatenate([foot, foot[::-1] * np.array([-1, 1])])
+    sides = [np.stack([np.full(len(both), x), both[:, 1], both[:, 0]], -1) for x in (-0.06, 0.06)]
+    cheeks = [surface(np.array([side[:len(foot)], side[:len(foot) - 1:-1]])) for side in sides]
+    block = joined(surface(np.array(sides)), cheeks)
+    return joined(surface(length, closed_u=True), underside, moved(block, x=-0.55),
+                  moved(block, x=0.55))
 
 
 def fountain(level: Level) -> Array:
