@@ -23,12 +23,12 @@ SKY = 18.0  # its height
 SKY_X, SKY_Z = (-13.0, 13.0), (-11.0, 10.5)
 HORIZON = 20.0, 10.0  # where the sky comes down behind the far end of the court
 COVE = 12  # the strips of which its curve consists
-SKY_EXITANCE = 2.2
-SUN = -5.0, -9.2  # its middle
+SKY_EXITANCE = 2.4
+SUN = -5.0, -7.3  # its middle
 SUN_HALF = 0.6
-SUN_EXITANCE = 4000.0
+SUN_EXITANCE = 3600.0
 
-BANNERS = [-2, -1, 0.5, 2]  # the places along the long sides, in bays from their middles
+BANNERS = [(0, 0), (0, 2), (2, 1), (2, -1)]  # side, the place in bays from its middle
 POLE = 8.5  # the height of the banners' poles
 CURTAINS = [(0, -2, 1), (0, 1, -1), (2, 2, -1), (2, -1, 1), (1, -1, 1), (1, 1, -1)]
 # side, bay from its middle, and at which side of the arch the curtain is tied
@@ -57,17 +57,14 @@ def sky() -> Array:
 
 def banners(level: Level) -> Array:
     """They hang from poles that stand out of the walls above the colonnettes."""
-    width, gap = 1.2, 0.75
+    width, gap = 1.15, 0.75
     parts = []
-    for side in LONG_SIDES:
-        for i, bay in enumerate(BANNERS if side else BANNERS[::-1]):
-            hand = 1 if side else -1
-            hanging = cloth.banner(level, width, 3.4 + 0.5 * (i % 2), 10 * side + i)
-            if level.has(0.02):
-                hanging = joined(hanging, cloth.stay(level, gap + width / 2))
-            hanging = rotated(hanging, Y, PI / 2)
-            parts.append(placed(hanging, stations(side, [hand * bay * BAY], POLE,
-                                                  -gap - width / 2)))
+    for i, (side, bay) in enumerate(BANNERS):
+        hanging = cloth.banner(level, width, 3.0 + 0.3 * (i % 2), i)
+        if level.has(0.02):
+            hanging = joined(hanging, cloth.stay(level, gap + width / 2))
+        hanging = rotated(hanging, Y, -PI / 2)
+        parts.append(placed(hanging, stations(side, [bay * BAY], POLE, -gap - width / 2)))
     return joined(parts)
 
 

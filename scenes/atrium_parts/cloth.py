@@ -25,18 +25,18 @@ def noise(u: Array, t: Array, seed: float) -> Array:
 
 def folded(u: Array, t: Array, folds: float, seed: int) -> tuple[Array, Array]:
     """How far a fold lies to the front, and to the side: about -1 to 1."""
-    phase = 2 * PI * (folds * u + t * (0.5 * noise(u * 3, t * 1.2, seed)
-                                       + 0.3 * noise(u * 7, t * 2.5, seed + 20)))
-    height = 0.78 + 0.5 * noise(u * folds * 0.6, t * 1.6, seed + 40)
+    phase = 2 * PI * (folds * u + np.minimum(1, 2 * t) * (
+        1.1 * noise(u * 2.2, t * 0.9, seed) + 0.4 * noise(u * 6, t * 2.2, seed + 20)))
+    height = 0.75 + 0.8 * noise(u * folds * 0.7, t * 1.3, seed + 40)
     return -cos(phase) * height, 0.45 * sin(2 * phase) * height
 
 
 def banner(level: Level, width: float, length: float, seed: int) -> Array:
     """It hangs from a rod along x at the origin."""
-    folds = 5
-    u, t = grid(level, 64, 44)
+    folds = 4
+    u, t = grid(level, 80, 60)
     front, aside = folded(u, t, folds, seed)
-    depth = 0.025 + 0.075 * smoothstep(0, 0.7, t)
+    depth = 0.02 + 0.085 * smoothstep(0, 0.6, t)
     narrow = 1 - 0.1 * smoothstep(0, 0.6, t)
     x = (u - 0.5) * width * narrow + depth * aside * smoothstep(0, 0.4, t)
     sag = 0.03 * (1 - cos(2 * PI * folds * u)) * (1 - t) * (1 - t)

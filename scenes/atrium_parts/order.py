@@ -191,8 +191,9 @@ def baluster(level: Level) -> Array:
 
 def pedestal(level: Level) -> Array:
     """The part of the balustrade that carries a colonnette."""
-    low, high = GALLERY + 0.2, RAIL - 0.12
-    return square(level.outline([(0.17, low), (0.17, high)]))
+    low, high = GALLERY + 0.2, RAIL + 0.015
+    return square(level.outline([(0.175, low), (0.175, high - 0.16), (0.205, high - 0.12, 0.25),
+                                 (0.205, high - 0.02), (0.19, high), (0.1, high)]))
 
 
 def upper_pier(level: Level) -> Array:

@@ -205,13 +205,24 @@ def roof(level: Level) -> Array:
             chosen = upper[column] == kind
             places = stations(side, u[column[chosen]],
                               EAVES + 0.03 + slope * (w[course[chosen]] - EDGE), w[course[chosen]])
-            tiles.append(placed(tile(level, length, slope, kind == 1), jittered(places, side)))
+            places = jittered(places, side)
+            tiles.append(placed(tile(level, length, slope, kind == 1), places))
+            if kind:
+                lowest = course[chosen] == 0
+                tiles.append(placed(tile_end(level), (places[0][lowest], places[1][lowest])))
     return joined(plane, tiles)
 
 
 def jittered(places: Stations, seed: int) -> Stations:
     matrices, offsets = places
     return matrices, offsets + Random(seed).uniform(-0.012, 0.012, offsets.shape)
+
+
+def tile_end(level: Level) -> Array:
+    """What closes the hollow of a covering tile at the eaves."""
+    half = arc(0.1, 0.1, level.segments(5, 2))
+    return surface(np.stack([np.stack([s * half[:, 0], 0.065 + s * half[:, 1],
+                                       np.full(len(half), 0.015)], -1) for s in (0.0, 1.0)], axis=1))
 
 
 def tile(level: Level, length: float, slope: float, covering: bool) -> Array:
