@@ -9,10 +9,10 @@ from model.shapes import box, lathe, quad, surface, tubes
 
 from . import order
 from .level import Level
-from .mouldings import archivolt, arc, jambs, pierced_wall, ring, soffit, spandrel
-from .plan import (ARCH, BACK, BAY, CEILING, EAVES, ENTABLATURE, GALLERY, HALF_X, HALF_Z, RAIL, SIDES,
-                   SPRING, STRING_COURSE, UPPER_ARCH, UPPER_SPRING, WALK, WALL, between, corners,
-                   evenly, half_length, placed, stations, united)
+from .mouldings import arc, archivolt, ring, soffit, spandrel
+from .plan import (ARCH, BACK, BAY, CEILING, EAVES, ENTABLATURE, GALLERY, RAIL, SIDES, SPRING,
+                   STRING_COURSE, UPPER_ARCH, UPPER_SPRING, WALL, between, corners, evenly,
+                   half_length, placed, stations, united)
 
 Array = np.ndarray
 
@@ -182,17 +182,17 @@ def cornice(level: Level) -> Array:
     return joined(parts)
 
 
-def vault(level: Level, half_u: float) -> Array:
+def vault(level: Level, half_u: float, front: float) -> Array:
     """A groin vault: two barrels cross, and above each point hangs the higher one."""
     count = level.segments(8)
     angle = np.arange(count + 1) * (PI / 2 / count)
     u, rise = np.broadcast_arrays(1 - cos(angle)[:, np.newaxis], sin(angle))
     height = np.maximum(sin(angle)[:, np.newaxis], sin(angle))
     quarter = surface(np.stack([1 - u, height, 1 - u.T], axis=-1))
-    half_w = (BACK - WALL) / 2
+    half_w = (BACK - front) / 2
     whole = joined([scaled(quarter, su * half_u, 1.52, sw * half_w)
                     for su in (-1, 1) for sw in (-1, 1)])
-    return moved(whole, y=SPRING, z=WALL + half_w)
+    return moved(whole, y=SPRING, z=front + half_w)
 
 
 def transverse_arch(level: Level) -> Array:
@@ -212,10 +212,10 @@ def vaults(level: Level) -> Array:
         return ring(np.array([(0, SPRING + 1.5), (-BACK, SPRING + 1.5)]), 0)
     ribs = united([between(BAY), *(stations(side, [half_length(side), -half_length(side)])
                                    for side in SIDES)])
-    cornering = united([stations(side, [half_length(side) + (BACK + WALL) / 2])
+    cornering = united([stations(side, [half_length(side) + (BACK + RIB) / 2])
                         for side in SIDES])
-    return joined(placed(vault(level, BAY / 2 - RIB), evenly(BAY)),
-                  placed(vault(level, (BACK - WALL) / 2), cornering),
+    return joined(placed(vault(level, BAY / 2 - RIB, WALL), evenly(BAY)),
+                  placed(vault(level, (BACK - RIB) / 2, RIB), cornering),
                   placed(transverse_arch(level), ribs))
 
 
@@ -241,7 +241,7 @@ def ceiling(level: Level) -> Array:
     if not level.has(0.04):
         return ring(np.array([(0, CEILING), (-BACK, CEILING)]), 0)
     straight = united([evenly(UPPER_BAY / 2, y=CEILING, w=w) for w in rows])
-    length = (BACK + 0.0) / 4
+    length = BACK / 4
     corner = (np.arange(4) + 0.5) * length
     around = united([stations(side, half_length(side) + corner, CEILING, w)
                      for side in SIDES for w in rows])

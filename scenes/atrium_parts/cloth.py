@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from model.meshes import X, joined, moved, repeated, rotated
+from model.meshes import joined, moved, repeated, rotated
 from model.noise import gradient_noise
 from model.portable import PI, cos, sin, smoothstep
 from model.shapes import lathe, spline, surface, tubes

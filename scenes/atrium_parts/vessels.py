@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from model.meshes import Y, joined, moved, repeated, scaled
+from model.meshes import joined, moved, repeated, scaled
 from model.noise import gradient_noise
 from model.portable import PI, Random, cos, sin
 from model.shapes import circle, lathe, quad, spline, surface, tubes
@@ -112,16 +112,15 @@ def bench(level: Level) -> Array:
     """A stone slab along x on two scrolled feet."""
     slab = level.outline([(0.2, 0.4), (0.22, 0.42, 0.3), (0.22, 0.45), (0.25, 0.48, -0.2),
                           (0.25, 0.51), (0.24, 0.52, 0.3), (0, 0.525)])
-    length = np.array([[sx * (0.6 + r), y, sz * r] for sx, sz in ((-1, -1), (-1, 1), (1, 1), (1, -1))
-                       for r, y in slab.tolist()]).reshape(4, -1, 3)
-    underside = quad(*length[:, 0])
+    corners = ((-1, -1), (-1, 1), (1, 1), (1, -1))
+    seat = np.array([[(sx * (0.6 + r), y, sz * r) for r, y in slab.tolist()] for sx, sz in corners])
     foot = level.outline([(0.2, -0.03), (0.2, 0.06), (0.13, 0.12, -0.3), (0.1, 0.22, -0.1),
                           (0.19, 0.38, -0.2), (0.2, 0.41, 0.3)])
     both = np.concatenate([foot, foot[::-1] * np.array([-1, 1])])
     sides = [np.stack([np.full(len(both), x), both[:, 1], both[:, 0]], -1) for x in (-0.06, 0.06)]
     cheeks = [surface(np.array([side[:len(foot)], side[:len(foot) - 1:-1]])) for side in sides]
     block = joined(surface(np.array(sides)), cheeks)
-    return joined(surface(length, closed_u=True), underside, moved(block, x=-0.55),
+    return joined(surface(seat, closed_u=True), quad(*seat[:, 0]), moved(block, x=-0.55),
                   moved(block, x=0.55))
 
 
