@@ -18,7 +18,7 @@ from model.shapes import quad, surface
 
 Array = np.ndarray
 
-STANDARD = 0.25  # the level of the parts at which the scene has about 300 thousand triangles
+STANDARD = 0.22  # the level of the parts at which the scene has about 300 thousand triangles
 SKY = 18.0  # its height
 SKY_X, SKY_Z = (-13.0, 13.0), (-11.0, 10.5)
 HORIZON = 20.0, 10.0  # where the sky comes down behind the far end of the court
@@ -90,7 +90,7 @@ def swags(level: Level) -> Array:
 
 
 def trees(level: Level) -> Array:
-    places = [(0, -1.5), (0, 1.5), (2, -1.5), (2, 1.5)]
+    places = [(0, -1.5), (0, 1.5), (2, -1.5), (2, 0.5)]
     return joined([placed(vessels.tree(level, seed), stations(side, [bay * BAY], 0, -1.7))
                    for seed, (side, bay) in enumerate(places)])
 

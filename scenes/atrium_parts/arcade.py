@@ -36,9 +36,9 @@ def wall_above_arch(level: Level, width: float, radius: float, spring: float, to
 
 
 def lower_arch(level: Level) -> Array:
-    segments = level.segments(28, 2)
+    segments = level.segments(40, 2)
     parts = [wall_above_arch(level, BAY, ARCH, SPRING, STRING_COURSE + 0.1, WALL, segments)]
-    if level.has(0.02):
+    if level.has(0.025):
         profile = level.outline([(0, 0.001), (0.05, 0.001), (0.05, 0.075), (0.065, 0.085, 0.3),
                                  (0.065, 0.16), (0.1, 0.195, -0.25), (0.115, 0.195),
                                  (0.115, 0.225), (0, 0.24)])
@@ -184,7 +184,7 @@ def cornice(level: Level) -> Array:
 
 def vault(level: Level, half_u: float, front: float) -> Array:
     """A groin vault: two barrels cross, and above each point hangs the higher one."""
-    count = level.segments(8)
+    count = level.segments(15)
     angle = np.arange(count + 1) * (PI / 2 / count)
     u, rise = np.broadcast_arrays(1 - cos(angle)[:, np.newaxis], sin(angle))
     height = np.maximum(sin(angle)[:, np.newaxis], sin(angle))
@@ -198,7 +198,7 @@ def vault(level: Level, half_u: float, front: float) -> Array:
 def transverse_arch(level: Level) -> Array:
     """Between two vaults, from a column to the wall behind it."""
     half_w = (BACK - WALL) / 2
-    opening = arc(half_w, 1.4, level.segments(20, 3))
+    opening = arc(half_w, 1.4, level.segments(30, 3))
     top = SPRING + 1.6
     across = joined(spandrel(2 * half_w, top, opening, SPRING, -RIB),
                     spandrel(2 * half_w, top, opening, SPRING, RIB),

@@ -121,7 +121,7 @@ def capital(level: Level) -> Array:
         lower = moved(leaf(level, 0.24, 0.1, 0.165), y=0.01, z=NECK + 0.012)
         upper = moved(leaf(level, 0.37, 0.115, 0.155), y=0.03, z=NECK + 0.006)
         parts += [around(lower, LEAVES), around(upper, LEAVES, PI / LEAVES)]
-    if level.has(0.02):
+    if level.has(0.03):
         parts += [around(volute(level), 4, PI / 4)]
     if level.has(0.2):
         parts += [around(moved(rosette(level, 0.055), y=CAPITAL - 0.05, z=0.265), 4)]

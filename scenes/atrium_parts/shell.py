@@ -65,8 +65,8 @@ def niche(level: Level, width: float, floor: float, top: float) -> Array:
                            (0, 0.003)])
     bracket = surface(np.array([np.stack([np.full(len(shelf), u), shelf[:, 1] + sill,
                                           -shelf[:, 0]], -1) for u in (-0.66, 0.66)]))
-    return joined(pierced_wall(width, floor - 0.02, top, radius, sill, spring, segments), shell, fan(rim, (0, sill, 0)),
-                  bracket, surround(level, radius, sill, spring),
+    return joined(pierced_wall(width, floor - 0.02, top, radius, sill, spring, segments), shell,
+                  fan(rim, (0, sill, 0)), bracket, surround(level, radius, sill, spring),
                   skirting(level, -width / 2, width / 2, floor))
 
 
@@ -186,11 +186,12 @@ def floors(level: Level) -> Array:
     first, second = STEP
     nosing = level.outline([(first, -0.04), (first, 0.14), (first + 0.015, 0.17, 0.6),
                             (second, 0.17), (second, WALK - 0.05),
-                            (second + 0.015, WALK - 0.02, 0.6), (second - 0.03, WALK - 0.012), (second - 0.04, WALK - 0.05),
+                            (second + 0.015, WALK - 0.02, 0.6), (second - 0.03, WALK - 0.012),
+                            (second - 0.04, WALK - 0.05),
                             (-BACK, WALK - 0.05)])
     gallery = np.array([(-0.1, GALLERY - 0.04), (-BACK, GALLERY - 0.04)])
     parts = [ground, ring(nosing, 0), ring(gallery, 0)]
-    if level.has(0.08):
+    if level.has(0.06):
         parts.append(slabs(level, (-HALF_X + first, -HALF_Z + first),
                            (HALF_X - first, HALF_Z - first), (0.74, 0.55), 0, 1))
         for side in SIDES:
