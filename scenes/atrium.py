@@ -13,22 +13,20 @@ from atrium_parts.plan import (BAY, HALF_X, HALF_Z, LONG_SIDES, RAIL, SPRING, WA
                                stations)
 from model.generator import Model, run
 from model.meshes import Y, joined, moved, rotated, scaled
-from model.portable import PI, cos, sin
-from model.shapes import quad, surface
+from model.portable import PI
+from model.shapes import quad
 
 Array = np.ndarray
 
-STANDARD = 0.22  # the level of the parts at which the scene has about 300 thousand triangles
+STANDARD = 0.2  # the level of the parts at which the scene has about 300 thousand triangles
 SKY = 18.0  # its height
-SKY_X, SKY_Z = (-13.0, 13.0), (-11.0, 10.5)
-HORIZON = 20.0, 10.0  # where the sky comes down behind the far end of the court
-COVE = 12  # the strips of which its curve consists
+SKY_X, SKY_Z = (-13.0, 34.0), (-11.0, 10.5)  # so far that it ends behind the roofs
 SKY_EXITANCE = 2.4
 SUN = -5.0, -7.3  # its middle
 SUN_HALF = 0.6
 SUN_EXITANCE = 3600.0
 
-BANNERS = [(0, 0), (0, 2), (2, 1), (2, -1)]  # side, the place in bays from its middle
+BANNERS = [(0, 0), (0, 2), (2, -0.5), (2, -2.5)]  # side, the place in bays from its middle
 POLE = 8.5  # the height of the banners' poles
 CURTAINS = [(0, -2, 1), (0, 1, -1), (2, 2, -1), (2, -1, 1), (1, -1, 1), (1, 1, -1)]
 # side, bay from its middle, and at which side of the arch the curtain is tied
@@ -44,15 +42,10 @@ def sun_edges() -> tuple[tuple[float, float], tuple[float, float]]:
 
 
 def sky() -> Array:
-    """A rectangle with a hole for the sun, and a cove down to the horizon."""
+    """A rectangle with a hole for the sun."""
     x, z = sun_edges()
-    angle = np.arange(COVE + 1) * (PI / 2 / COVE)
-    along = SKY_X[1] + (HORIZON[0] - SKY_X[1]) * sin(angle)
-    height = HORIZON[1] + (SKY - HORIZON[1]) * cos(angle)
-    cove = surface(np.array([np.stack([along, height, np.full(COVE + 1, end)], axis=-1)
-                             for end in SKY_Z]))
     return joined(rectangle((SKY_X[0], x[0]), SKY_Z), rectangle((x[1], SKY_X[1]), SKY_Z),
-                  rectangle(x, (SKY_Z[0], z[0])), rectangle(x, (z[1], SKY_Z[1])), cove)
+                  rectangle(x, (SKY_Z[0], z[0])), rectangle(x, (z[1], SKY_Z[1])))
 
 
 def banners(level: Level) -> Array:

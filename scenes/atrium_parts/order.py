@@ -170,7 +170,7 @@ def colonnette(level: Level) -> Array:
     slab = level.outline([(0.13, height - 0.09), (0.155, height - 0.055, 0.3),
                           (0.165, height - 0.055), (0.165, height), (0.1, height)])
     foot = level.outline([(0.155, -0.02), (0.155, 0.06), (0.09, 0.06)])
-    parts = [lathe(outline, level.segments(16, 4)), square(slab)]
+    parts = [lathe(outline, level.segments(34, 4)), square(slab)]
     if level.has(0.02):
         parts.append(square(foot))
     if level.has(0.4):
@@ -186,7 +186,7 @@ def baluster(level: Level) -> Array:
         (0.062, foot), (0.062, foot + 0.04), (0.04, foot + 0.055), (0.04, foot + 0.075),
         (0.07, belly, 0.12), (0.036, top - 0.13, -0.13), (0.034, top - 0.115),
         (0.05, top - 0.095, 0.5), (0.036, top - 0.075, 0.5), (0.036, top - 0.06),
-        (0.058, top - 0.035, 0.2), (0.058, top)]), level.segments(10, 4))
+        (0.058, top - 0.035, 0.2), (0.058, top)]), level.segments(15, 4))
 
 
 def pedestal(level: Level) -> Array:
