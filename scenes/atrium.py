@@ -20,7 +20,7 @@ Array = np.ndarray
 
 STANDARD = 0.2  # the level of the parts at which the scene has about 300 thousand triangles
 SKY = 18.0  # its height
-SKY_X, SKY_Z = (-13.0, 34.0), (-11.0, 10.5)  # so far that it ends behind the roofs
+SKY_X, SKY_Z = (-13.0, 41.0), (-11.0, 10.5)  # so far that it ends behind the roofs
 SKY_EXITANCE = 2.4
 SUN = -5.0, -7.3  # its middle
 SUN_HALF = 0.6
