@@ -25,8 +25,12 @@ class Model:
     lights: list[tuple[Array, float]] = field(default_factory=list)  # mesh, radiant exitance
     reflectance: float = 0.7
 
-    def triangles(self) -> Array:
-        return np.concatenate([mesh for mesh, _ in self.lights] + [self.geometry])
+    def meshes(self) -> list[Array]:
+        """All parts in the order of the file."""
+        return [mesh for mesh, _ in self.lights] + [self.geometry]
+
+    def __len__(self) -> int:
+        return sum(len(mesh) for mesh in self.meshes())
 
 
 def run(description: str, build: Callable[[float], Model], scalable: bool = True) -> None:
@@ -63,8 +67,7 @@ _scale.__name__ = 'number of triangles'  # what argparse calls it in its message
 def _of_scale(build: Callable[[float], Model], triangles: float) -> Model:
     """The model that comes closest within a few corrections of the level of detail."""
     def error(model: Model) -> float:
-        count = len(model.triangles())
-        return max(count / triangles, triangles / count)
+        return max(len(model) / triangles, triangles / len(model))
 
     detail, best = triangles / 1e6, None
     for _ in range(MOST_TRIALS):
@@ -73,20 +76,21 @@ def _of_scale(build: Callable[[float], Model], triangles: float) -> Model:
             best = model
         if error(best) < CLOSE_ENOUGH:
             break
-        detail *= triangles / len(model.triangles())
+        detail *= triangles / len(model)
     return best
 
 
 def _write(base: Path, model: Model) -> None:
     lights, first = [], 0
     for mesh, exitance in model.lights:
-        lights.append(f'{first} {first + len(mesh) - 1} {exitance:g}')
+        lights.append(f'{first} {first + len(mesh) - 1} {exitance!r}')
         first += len(mesh)
     scene = (f'triangles {base.name}.ra2\nlights {len(lights)} {"  ".join(lights)}\n'
-             f'reflectance {model.reflectance:g}\n')
-    _replace(base.with_name(base.name + '.ra2'), model.triangles().astype('<f4').tobytes())
+             f'reflectance {model.reflectance!r}\n')
+    triangles = np.concatenate([mesh.astype('<f4') for mesh in model.meshes()])
+    _replace(base.with_name(base.name + '.ra2'), triangles.tobytes())
     _replace(base.with_name(base.name + '.scene'), scene.encode())
-    print(f'{base}.ra2: {len(model.triangles())} triangles')
+    print(f'{base}.ra2: {len(triangles)} triangles')
 
 
 def _replace(path: Path, content: bytes) -> None:

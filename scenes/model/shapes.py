@@ -35,7 +35,7 @@ def surface(points: Array, closed_u: bool = False, closed_v: bool = False) -> Ar
     a, b, c, d = points[:-1, :-1], points[1:, :-1], points[1:, 1:], points[:-1, 1:]
     triangles = np.stack([np.stack([a, b, c], axis=-2), np.stack([a, c, d], axis=-2)], axis=2)
     triangles = triangles.reshape(-1, 3, 3)
-    p, q, r = triangles[:, 0], triangles[:, 1], triangles[:, 2]
+    p, q, r = np.moveaxis(triangles.astype(np.float32), 1, 0)  # what will be written
     whole = ((p != q).any(axis=1) & (q != r).any(axis=1) & (r != p).any(axis=1))
     return triangles[whole]
 

@@ -15,6 +15,7 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+PYTHON_TESTS = [HERE / 'program', HERE.parents[1] / 'scenes' / 'test']
 
 
 def counts(report: Path, status: int) -> tuple[int, int, int]:
@@ -62,7 +63,7 @@ def main() -> int:
         if not arguments.no_program_tests:
             report = Path(folder) / 'program.xml'
             results.append(run([sys.executable, '-m', 'pytest', '-q', '-rs', '-p', 'no:cacheprovider',
-                                f'--junitxml={report}', str(HERE / 'program')], report))
+                                f'--junitxml={report}', *map(str, PYTHON_TESTS)], report))
     passed, failed, skipped = (sum(column) for column in zip(*results))
     if skipped:
         print(f'{skipped} skipped')
