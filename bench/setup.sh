@@ -6,7 +6,8 @@ set -eu
 
 packages='
     g++ clang libclang-rt-dev libomp-dev scons git
-    libimath-dev libopenexr-dev libpng-dev libxxhash-dev libcli11-dev nlohmann-json3-dev libgtest-dev
+    libimath-dev libopenexr-dev libpng-dev libxxhash-dev libcli11-dev nlohmann-json3-dev
+    libassimp-dev libgtest-dev
     python3-numpy python3-pytest
 '
 

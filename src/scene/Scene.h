@@ -30,8 +30,10 @@ struct Scene {
 ///         "<file>: <what is wrong>" for bad triangles
 Scene readScene(const std::filesystem::path& path);
 
-/// Writes the scene file, not its triangles. Read again it gives the same scene to the bit.
-void writeScene(const std::filesystem::path& path, const Scene& scene);
+/// Writes the scene file, not its triangles. Read again it gives the same scene to the bit. The
+/// lines of the comment, each ended by a line feed, come first.
+void writeScene(const std::filesystem::path& path, const Scene& scene,
+                const std::string& comment = "");
 
 /// Reads `*.ra2`: little endian float32, nine per triangle, no header.
 /// @throws std::runtime_error where the size is not a multiple of 36 bytes or exceeds the memory

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace bwfirt {
@@ -143,8 +144,12 @@ Scene readScene(const std::filesystem::path& path) {
     return scene;
 }
 
-void writeScene(const std::filesystem::path& path, const Scene& scene) {
-    std::string text = "triangles " + wordOf(scene.trianglesPath) + "\n";
+void writeScene(const std::filesystem::path& path, const Scene& scene, const std::string& comment) {
+    std::string text;
+    std::istringstream lines(comment);
+    for (std::string line; std::getline(lines, line);)
+        text += "# " + line + "\n";
+    text += "triangles " + wordOf(scene.trianglesPath) + "\n";
     text += "lights " + std::to_string(scene.lights.size());
     const bool one = scene.lights.size() == 1;
     for (const Light& light : scene.lights)

@@ -95,13 +95,12 @@ void TextReader::advance() {
     next_ = Word{std::string(text.substr(begin, end - begin)), line_};
 }
 
-std::string printable(std::string_view text) {
-    constexpr std::size_t LONGEST = 40;
-    std::string result(text.substr(0, LONGEST));
+std::string printable(std::string_view text, std::size_t longest) {
+    std::string result(text.substr(0, longest));
     for (char& c : result)
         if (c < ' ' || c > '~')
             c = '?';
-    return text.size() > LONGEST ? result + "..." : result;
+    return text.size() > longest ? result + "..." : result;
 }
 
 std::optional<double> parseNumber(std::string_view text) {

@@ -55,9 +55,9 @@ class TextReader {
     std::optional<Word> next_;
 };
 
-/// A text as it may stand in a message of one line, whatever bytes it holds: cut where it is long,
-/// '?' for every byte that is not printable ASCII.
-std::string printable(std::string_view text);
+/// A text as it may stand in a message of one line, whatever bytes it holds: cut where it is longer
+/// than `longest`, '?' for every byte that is not printable ASCII.
+std::string printable(std::string_view text, std::size_t longest = 40);
 
 /// The finite number that the whole text is; nothing where it is something else.
 std::optional<double> parseNumber(std::string_view text);
