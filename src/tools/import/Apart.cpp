@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "tools/import/Apart.h"
 
+#include "scene/FileIO.h"
+
 #include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -48,18 +51,18 @@ std::uintmax_t addressSpace() {
     return pages * static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE));
 }
 
-void limit(decltype(RLIMIT_AS) resource, std::uintmax_t soft) {
+void limit(decltype(RLIMIT_AS) resource, rlim_t soft) {
     rlimit limits{};
     getrlimit(resource, &limits);
-    limits.rlim_cur = std::min<rlim_t>(soft, limits.rlim_max);
+    limits.rlim_cur = std::min(soft, limits.rlim_max);
     setrlimit(resource, &limits);
 }
 
-void apply(const Limits& limits) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would take the result
+/// What keeps harm that the work does inside its process.
+void shield(std::uintmax_t memory) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // without its parent nobody would take the result
     limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_CPU, limits.processorSeconds);
-    limit(RLIMIT_AS, addressSpace() + limits.memoryBytes);
+    limit(RLIMIT_AS, addressSpace() + memory);
     const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
     dup2(nowhere, STDOUT_FILENO);
     dup2(nowhere, STDERR_FILENO);
@@ -75,10 +78,10 @@ void writeAll(int descriptor, std::string_view text) {
 }
 
 /// The life of the other process. It never returns to main, whose work is not its own.
-[[noreturn]] void workAndExit(const std::string& name, const Limits& limits,
-                              const std::function<std::string()>& work, int result) {
+[[noreturn]] void workAndExit(const std::string& name, const std::function<std::string()>& work,
+                              int result) {
     handleInterrupts(SIG_DFL);
-    apply(limits);
+    shield(availableMemory());
     int status = EXIT_FAILURE;
     try {
         writeAll(result, work());
@@ -114,16 +117,15 @@ int waitFor(pid_t process) {
 }
 
 /// How a process died that a signal ended.
-std::string causeOfDeath(int signal, const Limits& limits) {
+std::string causeOfDeath(int signal) {
     if (signal == SIGXCPU)
-        return "took more than " + std::to_string(limits.processorSeconds) + " seconds";
-    return "crashed its reader: signal " + std::to_string(signal) + ", " + strsignal(signal);
+        return "keeps its reader busy for too long";
+    return "crashes its reader: signal " + std::to_string(signal) + ", " + strsignal(signal);
 }
 
 }  // namespace
 
-std::string runApart(const std::string& name, const Limits& limits,
-                     const std::function<std::string()>& work) {
+std::string runApart(const std::string& name, const std::function<std::string()>& work) {
     std::array<int, 2> ends{};  // of the pipe: to read, to write
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
         failWithErrno("no pipe");
@@ -132,7 +134,7 @@ std::string runApart(const std::string& name, const Limits& limits,
     if (process < 0)
         failWithErrno("no process");
     if (process == 0)
-        workAndExit(name, limits, work, ends[1]);
+        workAndExit(name, work, ends[1]);
     close(ends[1]);
     std::string text = readAll(ends[0], process);
     close(ends[0]);
@@ -140,10 +142,20 @@ std::string runApart(const std::string& name, const Limits& limits,
     if (interruptedBy != 0)
         throw std::runtime_error("interrupted");
     if (WIFSIGNALED(status))
-        throw std::runtime_error(name + ": " + causeOfDeath(WTERMSIG(status), limits));
+        throw std::runtime_error(name + ": " + causeOfDeath(WTERMSIG(status)));
     if (WEXITSTATUS(status) != EXIT_SUCCESS)
-        throw std::runtime_error(text.empty() ? name + ": ended its reader" : text);
+        throw std::runtime_error(text.empty() ? name + ": ends its reader" : text);
     return text;
+}
+
+void limitProcessorTime(std::uint64_t seconds) {
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    limit(RLIMIT_CPU, static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + seconds);
+}
+
+void liftProcessorTimeLimit() {
+    limit(RLIMIT_CPU, RLIM_INFINITY);
 }
 
 }  // namespace bwfirt

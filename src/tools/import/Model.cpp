@@ -2,6 +2,7 @@
 #include "tools/import/Model.h"
 
 #include "scene/TextReader.h"
+#include "tools/import/Apart.h"
 #include "tools/import/ModelCamera.h"
 
 #include <assimp/DefaultIOSystem.h>
@@ -21,13 +22,17 @@ namespace {
 
 using Matrix = aiMatrix4x4t<double>;
 
-/// A model may name other files. A FIFO or a device among them would never end.
+/// A model may name other files. A FIFO or a device among them would never end. Each file brings
+/// the time that reading it may take; damaged ones let some readers loop for ever.
 class RegularFiles : public Assimp::DefaultIOSystem {
   public:
     Assimp::IOStream* Open(const char* path, const char* mode) override {
         std::error_code error;
-        return std::filesystem::is_regular_file(path, error) ? DefaultIOSystem::Open(path, mode)
-                                                             : nullptr;
+        if (!std::filesystem::is_regular_file(path, error))
+            return nullptr;
+        const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+        limitProcessorTime(10 + (error ? 0 : bytes / 500'000));  // several times what is needed
+        return DefaultIOSystem::Open(path, mode);
     }
 };
 
@@ -84,22 +89,22 @@ Material converted(const aiMaterial& source) {
     return material;
 }
 
-/// The axis of the metadata that the reader of FBX sets, the only one that tells it and turns
-/// nothing. The others turn their scenes or have a fixed axis, y but for a few.
-V3d upAxis(const aiScene& scene) {
-    int axis = 1, sign = 1;
-    if (scene.mMetaData != nullptr && scene.mMetaData->Get("UpAxis", axis))
-        scene.mMetaData->Get("UpAxisSign", sign);
-    V3d up(0);
-    up[axis >= 0 && axis <= 2 ? axis : 1] = sign < 0 ? -1 : 1;
-    return up;
-}
-
 std::string formatName(const aiScene& scene) {
     aiString name;
     if (scene.mMetaData != nullptr)
         scene.mMetaData->Get("SourceAsset_Format", name);
     return name.C_Str();
+}
+
+/// The file's own axis. The reader of FBX tells it and that of Blender leaves z as it is; the
+/// others turn their scenes to y, or read formats that have no axis of their own.
+V3d upAxis(const aiScene& scene) {
+    int axis = formatName(scene).starts_with("Blender") ? 2 : 1, sign = 1;
+    if (scene.mMetaData != nullptr && scene.mMetaData->Get("UpAxis", axis))
+        scene.mMetaData->Get("UpAxisSign", sign);
+    V3d up(0);
+    up[axis >= 0 && axis <= 2 ? axis : 1] = sign < 0 ? -1 : 1;
+    return up;
 }
 
 struct Instance {
@@ -140,13 +145,16 @@ Model::Model(const std::filesystem::path& path)
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     const aiScene* scene = importer.ReadFile(path_, aiProcess_Triangulate);
     if (scene == nullptr || scene->mRootNode == nullptr) {
-        const std::string reason = importer.GetErrorString();
+        std::string reason = importer.GetErrorString();
         if (reason.find("bad_alloc") != std::string::npos)
             throw std::bad_alloc();
+        if (reason.starts_with("No suitable reader"))
+            reason = "is of no format that assimp reads";
         throw std::runtime_error(
             path_ + ": " +
             printable(reason.empty() ? "cannot be read" : reason, LONGEST_COMPLAINT));
     }
+    liftProcessorTimeLimit();
     import_->scene = scene;
     format_ = formatName(*scene);
     up_ = upAxis(*scene);

@@ -20,8 +20,8 @@ struct Material {
     bool hasTexture = false;  ///< an image, which is not read, tells where it emits
 };
 
-/// A file as assimp reads it, in the file's own coordinates. Hostile files crash assimp: the class
-/// is to be used in a process of its own.
+/// A file as assimp reads it, in the file's own coordinates. Damaged files crash assimp or keep it
+/// busy for ever: a model is to be made inside runApart(), whose process a time limit ends.
 class Model {
   public:
     using Corners = std::array<V3d, 3>;

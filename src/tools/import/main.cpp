@@ -8,6 +8,7 @@
 #include "scene/FileIO.h"
 #include "scene/TextReader.h"
 #include "tools/import/Apart.h"
+#include "tools/import/Completeness.h"
 #include "tools/import/Model.h"
 #include "tools/import/Outputs.h"
 #include "tools/import/Summary.h"
@@ -20,11 +21,11 @@ namespace {
 using namespace bwfirt;
 
 constexpr int DONE = 0, FAILED = 1, WRONG_USAGE = 2;
-constexpr std::uint64_t PROCESSOR_SECONDS = 600;
 constexpr std::size_t LONGEST_NAME = 200;
 
 /// Reads, converts and writes; the summary.
 std::string import(const ImportSettings& settings, const Outputs& outputs) {
+    requireComplete(settings.model);
     auto model = std::make_unique<Model>(settings.model);
     Conversion conversion = converted(*model, settings);
     const std::string text = summary(*model, conversion);
@@ -40,8 +41,7 @@ void run(const ImportSettings& settings) {
     inputFileSize(settings.model);
     const Outputs outputs(settings.base);
     outputs.check(settings.model);
-    std::string text = runApart(settings.model.string(), {availableMemory(), PROCESSOR_SECONDS},
-                                [&] { return import(settings, outputs); });
+    std::string text = runApart(settings.model.string(), [&] { return import(settings, outputs); });
     const std::string base = settings.base.string();
     text += "written      " + base + ".ra2, " + base + ".camera, " + base + ".scene\n";
     if (!(std::cout << text << std::flush))
