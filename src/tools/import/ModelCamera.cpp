@@ -58,8 +58,10 @@ std::optional<Camera> converted(const aiCamera& source, const aiScene& scene,
                                 const std::string& format) {
     const Matrix transform = toRoot(scene.mRootNode->FindNode(source.mName));
     const aiMatrix3x3t<double> rotation(transform);
+    // The reader of glTF repeats the node's translation here.
+    const Vector position = format.starts_with("glTF") ? Vector() : Vector(source.mPosition);
     Camera camera;
-    camera.position = vector(transform * Vector(source.mPosition));
+    camera.position = vector(transform * position);
     camera.direction = vector(rotation * Vector(source.mLookAt)).normalized();
     camera.up = vector(rotation * Vector(source.mUp)).normalized();
     camera.filmSizeY = 2 * tanHalfFieldOfView(source, format);
