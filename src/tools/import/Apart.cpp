@@ -4,6 +4,7 @@
 #include "scene/FileIO.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -32,12 +33,29 @@ void noteInterrupt(int signal) {
     interruptedBy = signal;
 }
 
-/// Without SA_RESTART, so that waiting for the other process ends.
-void handleInterrupts(void (*handler)(int)) {
-    struct sigaction action {};
-    action.sa_handler = handler;
+sigset_t interrupts() {
+    sigset_t set;
+    sigemptyset(&set);
     for (const int signal : INTERRUPTS)
+        sigaddset(&set, signal);
+    return set;
+}
+
+/// But not where the user ignores them, as nohup does.
+void handleInterrupts(void (*handler)(int)) {
+    for (const int signal : INTERRUPTS) {
+        struct sigaction action {};
+        sigaction(signal, nullptr, &action);
+        if (action.sa_handler == SIG_IGN)
+            continue;
+        action.sa_handler = handler;
         sigaction(signal, &action, nullptr);
+    }
+}
+
+void setBlocked(int how) {
+    const sigset_t set = interrupts();
+    sigprocmask(how, &set, nullptr);
 }
 
 [[noreturn]] void failWithErrno(const std::string& what) {
@@ -81,6 +99,7 @@ void writeAll(int descriptor, std::string_view text) {
 [[noreturn]] void workAndExit(const std::string& name, const std::function<std::string()>& work,
                               int result) {
     handleInterrupts(SIG_DFL);
+    setBlocked(SIG_UNBLOCK);
     shield(availableMemory());
     int status = EXIT_FAILURE;
     try {
@@ -94,18 +113,24 @@ void writeAll(int descriptor, std::string_view text) {
     _exit(status);
 }
 
-/// All that arrives until the other process ends.
+/// All that arrives until the other process ends. Interrupts come through only while this waits, so
+/// that none is missed.
 std::string readAll(int descriptor, pid_t process) {
     std::string text;
     std::array<char, 4096> buffer;
+    sigset_t none;
+    sigemptyset(&none);
     for (;;) {
+        pollfd poll{descriptor, POLLIN, 0};
+        if (ppoll(&poll, 1, nullptr, &none) < 0) {
+            if (interruptedBy != 0)
+                kill(process, SIGKILL);
+            continue;
+        }
         const ssize_t count = read(descriptor, buffer.data(), buffer.size());
-        if (interruptedBy != 0)
-            kill(process, SIGKILL);
-        if (count > 0)
-            text.append(buffer.data(), static_cast<std::size_t>(count));
-        else if (count == 0 || errno != EINTR)
+        if (count <= 0)
             return text;
+        text.append(buffer.data(), static_cast<std::size_t>(count));
     }
 }
 
@@ -125,11 +150,15 @@ std::string causeOfDeath(int signal) {
 
 }  // namespace
 
+void holdInterrupts() {
+    handleInterrupts(noteInterrupt);
+    setBlocked(SIG_BLOCK);
+}
+
 std::string runApart(const std::string& name, const std::function<std::string()>& work) {
     std::array<int, 2> ends{};  // of the pipe: to read, to write
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
         failWithErrno("no pipe");
-    handleInterrupts(noteInterrupt);
     const pid_t process = fork();
     if (process < 0)
         failWithErrno("no process");

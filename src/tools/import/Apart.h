@@ -7,6 +7,9 @@
 
 namespace bwfirt {
 
+/// From now on an interrupt (SIGINT, SIGTERM, SIGHUP) only ends what runs apart.
+void holdInterrupts();
+
 /// Runs work in a process of its own and returns the text that it returned. What the work writes to
 /// standard output or standard error is lost. It is ended when it wants more memory than is left,
 /// and by an interrupt. To be called from the only thread of a process, once.

@@ -3,6 +3,7 @@
 
 #include "scene/TextReader.h"
 #include "tools/import/Apart.h"
+#include "tools/import/GltfTriangles.h"
 #include "tools/import/ModelCamera.h"
 
 #include <assimp/DefaultIOSystem.h>
@@ -26,10 +27,15 @@ using Matrix = aiMatrix4x4t<double>;
 /// the time that reading it may take; damaged ones let some readers loop for ever.
 class RegularFiles : public Assimp::DefaultIOSystem {
   public:
-    Assimp::IOStream* Open(const char* path, const char* mode) override {
+    bool Exists(const char* path) const override {
         std::error_code error;
-        if (!std::filesystem::is_regular_file(path, error))
+        return std::filesystem::is_regular_file(path, error);
+    }
+
+    Assimp::IOStream* Open(const char* path, const char* mode) override {
+        if (!Exists(path))
             return nullptr;
+        std::error_code error;
         const std::uintmax_t bytes = std::filesystem::file_size(path, error);
         limitProcessorTime(10 + (error ? 0 : bytes / 500'000));  // several times what is needed
         return DefaultIOSystem::Open(path, mode);
@@ -107,6 +113,18 @@ V3d upAxis(const aiScene& scene) {
     return up;
 }
 
+void requireGltfTriangles(const std::filesystem::path& path, const aiScene& scene) {
+    std::uint64_t count = 0;
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i)
+        for (unsigned j = 0; j < scene.mMeshes[i]->mNumFaces; ++j)
+            count += scene.mMeshes[i]->mFaces[j].mNumIndices == 3;
+    const std::uint64_t announced = announcedGltfTriangles(path);
+    if (count < announced)
+        throw std::runtime_error(path.string() + ": " + std::to_string(announced - count) +
+                                 " of its " + std::to_string(announced) +
+                                 " triangles refer to vertices that are not there");
+}
+
 struct Instance {
     const aiNode* node;
     Matrix transform;
@@ -158,6 +176,8 @@ Model::Model(const std::filesystem::path& path)
     import_->scene = scene;
     format_ = formatName(*scene);
     up_ = upAxis(*scene);
+    if (format_.starts_with("glTF2"))
+        requireGltfTriangles(path, *scene);
     camera_ = firstCamera(*scene, format_);
     for (unsigned i = 0; i < scene->mNumMaterials; ++i)
         materials_.push_back(converted(*scene->mMaterials[i]));

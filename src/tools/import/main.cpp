@@ -38,6 +38,7 @@ std::string import(const ImportSettings& settings, const Outputs& outputs) {
 }
 
 void run(const ImportSettings& settings) {
+    holdInterrupts();
     inputFileSize(settings.model);
     const Outputs outputs(settings.base);
     outputs.check(settings.model);
