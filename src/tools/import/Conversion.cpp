@@ -139,14 +139,18 @@ Conversion converted(const Model& model, const ImportSettings& settings) {
     if (!fitsSinglePrecision({result.placement(box.min), result.placement(box.max)}))
         fail(settings, "with this --scale its coordinates exceed the range of single precision");
 
+    result.scene.triangles.reserve(known.triangles + 2 * settings.lights.size());
     placeModel(model, known, result);
     addSquareLights(settings, result);
+    result.camera = framingCamera(
+        {result.placement(known.box.min), result.placement(known.box.max)}, result.up);
     if (model.camera()) {
-        result.camera = *model.camera();
-        result.camera.position = result.placement(result.camera.position);
-    } else {
-        result.camera = framingCamera(
-            {result.placement(known.box.min), result.placement(known.box.max)}, result.up);
+        const V3d position = result.placement(model.camera()->position);
+        result.hasCameraOfFile = isFinite(V3f(position));
+        if (result.hasCameraOfFile) {
+            result.camera = *model.camera();
+            result.camera.position = position;
+        }
     }
     return result;
 }

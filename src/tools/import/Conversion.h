@@ -15,6 +15,7 @@ struct Conversion {
     Scene scene;                          ///< without the path of its triangles
     std::vector<std::string> lightNames;  ///< of each light: where it comes from
     Camera camera;
+    bool hasCameraOfFile = false;  ///< else the camera frames the model
     Placement placement;
     Imath::Box3d modelBox;  ///< of all triangles, in the model's coordinates
     V3d up;

@@ -104,8 +104,9 @@ std::string skippedLines(const Model& model) {
 
 std::string summary(const Model& model, const Conversion& conversion) {
     const std::string camera =
-        model.camera() ? "the first one of the file"
-                       : "frames the model from outside; of a closed room it sees walls";
+        conversion.hasCameraOfFile
+            ? "the first one of the file"
+            : "frames the model from outside; of a closed room it sees walls";
     return line("format", printable(model.format())) + triangleLine(conversion.scene.triangles) +
            placementLine(conversion) + lightLines(conversion) +
            line("camera", camera + ", at " + rounded(conversion.camera.position, " ")) +
