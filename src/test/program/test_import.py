@@ -20,7 +20,8 @@ EVERY_FORMAT = pytest.mark.parametrize('name, content', [
     ('model.stl', models.stl_ascii()),
     ('model.stl', models.stl_binary()),
     ('model.glb', models.glb(gltf())),
-], ids=['OBJ', 'PLY ascii', 'PLY little endian', 'PLY big endian', 'STL ascii', 'STL binary', 'GLB'])
+], ids=['OBJ', 'PLY ascii', 'PLY little endian', 'PLY big endian', 'STL ascii', 'STL binary',
+        'GLB'])
 
 
 @EVERY_FORMAT

@@ -101,7 +101,8 @@ def small_disk(tmp_path: Path) -> Iterator[Path]:
 def test_a_full_disk_leaves_the_old_scene_as_it_was(small_disk: Path) -> None:
     for name in WRITTEN:
         (small_disk / name).write_text('old')
-    (small_disk / 'model.ply').write_bytes(models.ply_binary('<', VERTICES, np.tile(FACES, (300, 1))))
+    faces = np.tile(FACES, (300, 1))
+    (small_disk / 'model.ply').write_bytes(models.ply_binary('<', VERTICES, faces))
     message = refusal_of(small_disk / 'model.ply')
     assert message == 'scene.ra2: cannot be written: No space left on device'
     assert [(small_disk / name).read_text() for name in WRITTEN] == ['old'] * 3
@@ -158,18 +159,18 @@ def test_a_coordinate_that_is_not_finite_is_refused(tmp_path: Path, name: str, v
 
 
 @pytest.mark.parametrize('value', [np.nan, np.inf])
-@pytest.mark.parametrize('write', [models.ply_binary, lambda _, v: models.stl_binary(v[FACES]),
-                                   lambda _, v: glb(gltf(), v.tobytes() + FACES.tobytes())],
-                         ids=['PLY', 'STL', 'GLB'])
+@pytest.mark.parametrize('name, write', [
+    ('model.ply', lambda vertices: models.ply_binary('<', vertices)),
+    ('model.stl', lambda vertices: models.stl_binary(vertices[FACES])),
+    ('model.glb', lambda vertices: glb(gltf(), vertices.tobytes() + FACES.tobytes()))],
+    ids=['PLY', 'STL', 'GLB'])
 def test_a_coordinate_that_is_not_finite_is_counted_in_binary_files(
-        tmp_path: Path, write, value: float) -> None:
+        tmp_path: Path, name: str, write, value: float) -> None:
     vertices = VERTICES.copy()
     vertices[4, 1] = value
-    content = write('<', vertices)
-    path = tmp_path / f"model.{'glb' if content[:4] == b'glTF' else 'ply' if content[:3] == b'ply' else 'stl'}"
-    path.write_bytes(content)
-    assert refusal_of(path) == (f'{path.name}: 4 of its 6 triangles have an infinite or NaN '
-                                'coordinate')
+    (tmp_path / name).write_bytes(write(vertices))
+    assert refusal_of(tmp_path / name) == (
+        f'{name}: 4 of its 6 triangles have an infinite or NaN coordinate')
 
 
 @pytest.mark.parametrize('face', ['1 2 6', '1 2 0', '1 2 -6', '1 2 99999999999999999999'])
