@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: GPL-3.0-only
+"""What hangs on walls and stands about: screen, whiteboard, sideboard, flip chart, clock.
+
+What hangs has its back in the plane z = 0 and faces +z; what stands does so on the origin.
+"""
+
+import numpy as np
+
+from model.meshes import X, joined, moved, rotated
+from model.portable import PI, Random, cos, sin
+from model.shapes import circle, cylinder, lathe, rounded_box, steps, surface
+
+from . import desk
+from .basics import bar, boxes, placed
+
+Array = np.ndarray
+SIDEBOARD = 30.0, 6.6, 4.4  # length, height, depth
+PANEL_SLATS, PANEL_HEIGHT, PANEL_WIDTH = 44, 25.0, 31.0
+BOARD_HALF_WIDTH, BOARD_HALF_HEIGHT = 12.0, 6.2
+
+
+def slat_panel(fine: float) -> Array:
+    """Upright strips of wood before the wall, from the middle of the floor upwards."""
+    count = steps(PANEL_SLATS * min(1, 5 * fine), 4)
+    pitch = PANEL_WIDTH / count
+    x = -PANEL_WIDTH / 2 + pitch * np.arange(count)
+    low = np.stack([x, 0 * x, 0 * x], axis=-1)
+    return boxes(low, low + [0.62 * pitch, PANEL_HEIGHT, 0.45], ('bottom', 'back'))
+
+
+def frame(half_width: float, half_height: float, edge: float, depth: float) -> Array:
+    """Four bars around a rectangle."""
+    a, b = half_width, half_height
+    pieces = [((-a - edge, b), (a + edge, b + edge)), ((-a - edge, -b - edge), (a + edge, -b)),
+              ((-a - edge, -b), (-a, b)), ((a, -b), (a + edge, b))]
+    low, high = (np.array([(*corner, z) for corner in corners], dtype=float)
+                 for corners, z in zip(zip(*pieces), (0, depth)))
+    return boxes(low, high, ('back',))
+
+
+def screen(fine: float) -> Array:
+    """A large display with a camera bar below."""
+    panel = boxes((-12.5, -7.0, 0.5), (12.5, 7.0, 0.9))
+    bar_below = rounded_box((-4.5, -8.2, 0.5), (4.5, -7.35, 1.4), 0.3, steps(5 * fine, 1))
+    lens = moved(rotated(cylinder(0.3, 0, 0.15, steps(24 * fine, 5)), X, PI / 2), 0, -7.78, 1.38)
+    return joined(panel, moved(frame(12.5, 7.0, 0.18, 0.6), 0, 0, 0.42),
+                  joined(bar_below, lens) if fine > 0.1 else [])
+
+
+def whiteboard(fine: float) -> Array:
+    """With a tray, pens, an eraser, and notes under magnets."""
+    a, b = BOARD_HALF_WIDTH, BOARD_HALF_HEIGHT
+    board = joined(boxes((-a, -b, 0.05), (a, b, 0.15), ('back',)), frame(a, b, 0.25, 0.28))
+    tray = boxes([(-5, -b - 0.45, 0), (-5, -b - 0.35, 1.0)], [(5, -b - 0.3, 1.1), (5, -b - 0.1, 1.1)])
+    if fine < 0.2:
+        return joined(board, tray)
+    random = Random(31)
+    pens = [placed(desk.marker(fine), x, -b - 0.3, 0.55, float(random.uniform(-0.25, 0.25)))
+            for x in (-3.6, -1.9, -0.3, 3.4)]
+    eraser = rounded_box((1.0, -b - 0.3, 0.3), (2.3, -b + 0.1, 0.85), 0.08, steps(3 * fine, 1))
+    return joined(board, tray, pens, eraser, notes(random, fine))
+
+
+def notes(random: Random, fine: float) -> Array:
+    magnet = rotated(cylinder(0.16, 0, 0.14, steps(18 * fine, 6)), X, PI / 2)
+    parts = []
+    for x, y in [(-9.2, 2.6), (-6.4, 3.1), (-8.8, -1.4), (7.5, 2.2), (9.9, 2.5)]:
+        page = rotated(desk.sheet(float(random.uniform(0.5, 1.2)), fine), X, PI / 2)
+        page = rotated(page, np.array([0, 0, 1.0]), float(random.uniform(-0.08, 0.08)))
+        parts += [moved(page, x, y, 0.165), moved(magnet, x, y + 1.25, 0.15)]
+    return joined(parts)
+
+
+def sideboard(fine: float) -> Array:
+    """Five doors with gaps between, on a recessed plinth."""
+    length, height, depth = SIDEBOARD
+    a = length / 2
+    body = boxes((-a, 0.8, 0), (a, height - 0.25, depth - 0.25), ('back',))
+    plinth = boxes((-a + 0.5, 0, 0), (a - 0.5, 0.8, depth - 0.8), ('bottom', 'back', 'top'))
+    top = rounded_box((-a - 0.15, height - 0.25, 0), (a + 0.15, height, depth + 0.1), 0.06,
+                      steps(3 * fine, 1))
+    count, gap = 5, 0.08
+    x = -a + length / count * np.arange(count)
+    low = np.stack([x + gap / 2, np.full(count, 0.85), np.full(count, depth - 0.26)], axis=-1)
+    doors = boxes(low, low + [length / count - gap, height - 1.2, 0.24], ('back',))
+    handles = [bar(np.array([(at + side, height - 2.4, depth), (at + side, height - 2.4, depth + 0.22),
+                             (at + side, height - 0.9, depth + 0.22), (at + side, height - 0.9, depth)]),
+                   0.05, steps(8 * fine, 3))
+               for at in x for side in (length / count - 0.5,)] if fine > 0.1 else []
+    return joined(body, plinth, top, doors, handles)
+
+
+def flip_chart(fine: float) -> Array:
+    """Three legs, a board, and a pad whose first sheet is half turned over."""
+    segments = steps(10 * fine, 3)
+    legs = [bar(np.array([foot, head], dtype=float), 0.12, segments)
+            for foot, head in (((-3.4, 0, 1.6), (-2.6, 18.5, 0)), ((3.4, 0, 1.6), (2.6, 18.5, 0)),
+                               ((0, 0, -4.2), (0, 17.5, -0.2)))]
+    tilt = -0.085
+    board = boxes((-3.5, 8.2, 0.2), (3.5, 18.6, 0.35))
+    pad = boxes((-3.3, 8.6, 0.35), (3.3, 18.2, 0.5))
+    clamp = rounded_box((-3.4, 17.9, 0.3), (3.4, 18.4, 0.75), 0.1, steps(3 * fine, 1))
+    ledge = boxes((-3.5, 8.0, 0.2), (3.5, 8.2, 1.2))
+    head = rotated(moved(joined(board, pad, clamp, ledge, curled_page(fine)), 0, -8.2, 0), X, tilt)
+    pens = [placed(desk.marker(fine), x, 8.22, 1.45, 0.1) for x in (-1.5, 0.8)] if fine > 0.2 else []
+    return joined(legs, moved(head, 0, 8.2, 0.75), pens)
+
+
+def curled_page(fine: float) -> Array:
+    """The uppermost sheet bellies away from the pad towards its lower edge."""
+    count = steps(14 * fine, 2)
+    t = np.arange(count + 1) / count
+    y = 17.9 - 9.1 * t + 1.1 * t * t * t
+    z = 0.54 + 0.9 * t * t * t * t + 0.1 * sin(PI * t)
+    ends = [np.stack([np.full_like(y, x), y, z + bulge * t * t], axis=-1)
+            for x, bulge in ((-3.25, 0.0), (0.0, 0.12), (3.25, 0.5))]
+    return surface(np.stack(ends))
+
+
+def clock(fine: float) -> Array:
+    """Ten past ten."""
+    segments = steps(72 * fine, 8)
+    case = lathe([(0, 0.0), (1.5, 0.0), (1.55, 0.1), (1.55, 0.32), (1.5, 0.36), (1.42, 0.34),
+                  (1.4, 0.2), (0, 0.2)], segments)
+    marks = [rotated(boxes((-0.035 - 0.03 * (i % 3 == 0), 0.19, -1.3), (0.035 + 0.03 * (i % 3 == 0), 0.23, -1.05)),
+                     np.array([0, 1.0, 0]), i * PI / 6) for i in range(12)]
+    hands = [rotated(boxes((-0.05, y, -length), (0.05, y + 0.03, 0.2)), np.array([0, 1.0, 0]), angle)
+             for y, length, angle in ((0.24, 0.75, 10 / 12 * -2 * PI + 2 * PI - 0.5), (0.29, 1.1, -PI / 3))]
+    pin = cylinder(0.08, 0.2, 0.35, steps(16 * fine, 5))
+    return rotated(joined(case, marks, hands, pin), X, PI / 2)
+
+
+def picture(fine: float) -> Array:
+    """A framed relief of rings that spread like waves from two points."""
+    count = steps(70 * fine, 6)
+    x, y = np.meshgrid(np.linspace(-6, 6, count + 1), np.linspace(-4, 4, count + 1), indexing='ij')
+    far = [np.sqrt((x - cx) * (x - cx) + (y - cy) * (y - cy)) for cx, cy in ((-2.6, -0.8), (2.9, 1.2))]
+    z = 0.45 + 0.1 * (cos(4.2 * far[0]) + cos(4.2 * far[1]))
+    return joined(surface(np.stack([x, y, z], axis=-1)), frame(6, 4, 0.3, 0.8))
+
+
+def pendulum_projector(fine: float) -> Array:
+    """Hung from the origin on a rod."""
+    rod = bar(np.array([(0, 0.0, 0), (0, -3.2, 0)]), 0.14, steps(14 * fine, 4))
+    rose = moved(cylinder(0.5, -0.15, -0.01, steps(24 * fine, 5)), 0, 0, 0)
+    body = rounded_box((-1.9, -4.4, -1.6), (1.9, -3.2, 1.6), 0.25, steps(6 * fine, 1))
+    ring = circle(steps(28 * fine, 6), 0.42)
+    lens = bar(np.array([(-1.85, -3.8, 0.5), (-2.3, -3.8, 0.5)]), 0.42, len(ring))
+    vents = boxes([(-1.2 + 0.3 * i, -4.1, 1.59) for i in range(9)],
+                  [(-1.1 + 0.3 * i, -3.5, 1.64) for i in range(9)])
+    return joined(rod, rose, body, lens, vents if fine > 0.2 else [])
