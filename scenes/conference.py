@@ -10,19 +10,19 @@ import numpy as np
 
 from conference_parts import desk, fittings, lamps, plant, room, shelves, tableware, windows
 from conference_parts import table as tables
-from conference_parts.basics import placed, standing
+from conference_parts.basics import COARSE, placed, standing
 from conference_parts.chair import chair
 from model.generator import Model, run
 from model.meshes import joined, moved
-from model.portable import PI, Random
+from model.portable import PI, Random, cos, sin
 
 Array = np.ndarray
 TABLE_X = -2.0
 SEATS_X = np.arange(10) * 6.1 - 27.45
 SEAT_DISTANCE = 2.9  # from the edge of the table to the middle of a chair
 STRAY_CHAIRS = [(-38.0, 25.5, 2.6), (20.5, -29.0, 0.25)]  # x, z, angle
-BLINDS = [(9.3, 0.5), (14.5, 0.42), (9.3, 0.62), (9.3, 0.35)]  # lowest point, tilt of each
-LAMP_EXITANCE, SKY_EXITANCE = 15.0, 3.0
+BLINDS = [(9.3, 0.78), (13.5, 0.7), (9.3, 0.85), (9.3, 0.74)]  # lowest point, tilt of each
+LAMP_EXITANCE, SKY_EXITANCE = 7.5, 1.4
 
 
 def seats() -> Array:
@@ -38,8 +38,7 @@ def seats() -> Array:
 def ahead(spots: Array, forward: Array, aside: Array, y: float, turn: Array) -> Array:
     """Spots (x, y, z, angle) that lie before seats, and to the left of the sitters."""
     x, z, angle = spots.T
-    look = np.stack([np.rint(np.where(np.abs(angle) == PI / 2, np.sign(angle), 0)),
-                     np.rint(np.where(angle == 0, 1, np.where(angle == PI, -1, 0)))], axis=-1)
+    look = np.stack([sin(angle), cos(angle)], axis=-1)
     return np.stack([x + forward * look[:, 0] + aside * look[:, 1], np.full(len(x), y),
                      z + forward * look[:, 1] - aside * look[:, 0], angle + turn], axis=-1)
 
@@ -69,17 +68,18 @@ def at_places(fine: float) -> list[Array]:
     kind = random.uniform(0, 1, count)
     kind[-1] = 0
     has_laptop = kind < 0.45
-    parts = [lay(desk.laptop(opening, fine), has_laptop & (np.arange(count) % 3 == i), 0.9, 0.0, 0.2)
+    third = np.arange(count) % 3
+    parts = [lay(desk.laptop(opening, fine), has_laptop & (third == i), 0.9, 0.0, 0.2)
              for i, opening in enumerate((1.75, 1.9, 2.05))]
-    parts += [lay(desk.papers(4, 0.1, fine, 3), ~has_laptop & (kind < 0.7), 2.2, 0.0),
-              lay(desk.papers(6, -0.08, fine, 4), has_laptop & (kind < 0.3), 2.1, 2.9, 0.3)]
-    if fine < 0.1:
+    if fine < COARSE:
         return parts
-    parts += [lay(desk.folder(fine), (kind >= 0.7) & (kind < 0.85), 2.3, 0.1, 0.3),
+    parts += [lay(desk.papers(4, 0.1, fine, 3), ~has_laptop & (kind < 0.7), 2.2, 0.0),
+              lay(desk.notebook(fine), has_laptop & (kind < 0.3), 1.9, 3.0, 0.3),
+              lay(desk.folder(fine), (kind >= 0.7) & (kind < 0.85), 2.3, 0.1, 0.3),
               lay(desk.notebook(fine), kind >= 0.85, 1.9, 0.2, 0.4),
               lay(desk.pen(fine), kind >= 0.45, 2.1, -1.55, 1.5),
-              lay(tableware.cup_and_saucer(fine), random.uniform(0, 1, count) < 0.7, 3.9, -2.0, 3),
-              lay(tableware.glass(fine), random.uniform(0, 1, count) < 0.6, 4.6, -0.6)]
+              lay(tableware.cup_and_saucer(fine), random.uniform(0, 1, count) < 0.7, 4.4, -2.3, 3),
+              lay(tableware.glass(fine), random.uniform(0, 1, count) < 0.6, 4.9, -0.6)]
     return parts
 
 
@@ -89,8 +89,18 @@ def along_the_middle(fine: float) -> list[Array]:
                   [moved(tableware.glass(fine), x, 0.08, z)
                    for x, z in ((0.6, -0.7), (1.0, 0.25), (0.2, 1.1))])
     things = [(tray, -16, 0.4, 0.3), (tray, 15.6, -0.3, 2.0), (desk.phone(fine), 0, 0, 0.4),
-              (tableware.fruit_bowl(fine), 3.9, 0.4, 0), (desk.remote_control(fine), -3.2, 0.9, 0.8)]
+              (tableware.fruit_bowl(fine), 3.9, 0.4, 0),
+              (desk.remote_control(fine), -3.2, 0.9, 0.8)]
     return [placed(mesh, x, tables.TOP, z, turn) for mesh, x, z, turn in things]
+
+
+def on_sideboard(fine: float) -> list[Array]:
+    x, y = 2.8 - room.HALF_LENGTH, fittings.SIDEBOARD[1] + room.PLANK[2]
+    glasses = [moved(tableware.glass(fine), 0.3 * i - 0.4, 0.08, 0.85 * i - 1.1) for i in range(3)]
+    things = [(joined(tableware.tray(fine), *glasses), -10.5), (tableware.vase(fine), 8.2),
+              (tableware.globe(fine), 11.4), (tableware.cup_and_saucer(fine), -7.4),
+              (desk.folder(fine), 4.6)]
+    return [placed(mesh, x, y, z, 0.4 * i) for i, (mesh, z) in enumerate(things)]
 
 
 def furniture(fine: float) -> list[Array]:
@@ -98,23 +108,26 @@ def furniture(fine: float) -> list[Array]:
     wall, width = PI / 2, shelves.WIDTH
     parts = [placed(shelves.bookcase(fine, 41), -a, floor, b - 0.6, wall),
              placed(shelves.bookcase(fine, 42), -a, floor, -b + 0.6 + width, wall),
-             placed(fittings.slat_panel(fine), -a, floor, 0, wall),
              placed(fittings.screen(fine), -a + 0.45, 17.2, 0, wall),
              placed(fittings.sideboard(fine), -a + 0.5, floor, 0, wall),
              placed(fittings.whiteboard(fine), -16, 15, b, PI),
              placed(plant.plant(15, 5, 24, fine, 7), 0.5, floor, -29.8)]
-    if fine > 0.1:
-        parts += [placed(fittings.flip_chart(fine), -37, floor, 29.0, 2.7),
+    if fine > COARSE:
+        parts += [placed(fittings.slat_panel(fine), -a, floor, 0, wall),
+                  placed(fittings.flip_chart(fine), -37, floor, 29.0, 2.7),
                   placed(fittings.clock(fine), -24, 21, -b),
                   placed(fittings.picture(fine), 28, 16, b, PI),
                   placed(plant.plant(12, 4, 20, fine, 8), 44.5, floor, -29.5),
-                  placed(fittings.pendulum_projector(fine), 6, room.HEIGHT, 0)]
+                  placed(fittings.projector(fine), 6, room.HEIGHT, 0),
+                  placed(fittings.waste_basket(fine), -1.2, floor, b - 1.8),
+                  *on_sideboard(fine)]
+        parts += [placed(fittings.air_outlet(fine), x, room.HEIGHT, 0) for x in (-32, 34)]
     return parts
 
 
 def build(detail: float) -> Model:
     fine = float(np.sqrt(detail))
-    middle = along_the_middle(fine) if fine > 0.1 else []
+    middle = along_the_middle(fine) if fine > COARSE else []
     on_table = [tables.table(fine), *at_places(fine), *middle]
     walls = [moved(windows.window(lowest, tilt, fine, seed), x, 0, -room.HALF_WIDTH)
              for seed, (x, (lowest, tilt)) in enumerate(zip(room.WINDOWS_X, BLINDS))]

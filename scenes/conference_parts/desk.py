@@ -5,9 +5,9 @@ import numpy as np
 
 from model.meshes import X, Y, Z, joined, moved, rotated
 from model.portable import PI, Random, sin
-from model.shapes import cylinder, rounded_box, steps, surface
+from model.shapes import cylinder, quad, rounded_box, steps, surface
 
-from .basics import bar, boxes, edge_dense
+from .basics import COARSE, bar, boxes, edge_dense
 
 Array = np.ndarray
 LAPTOP = 3.3, 2.3, 0.13  # width, depth, thickness
@@ -32,6 +32,12 @@ def keyboard() -> Array:
 def laptop(opening: float, fine: float) -> Array:
     """Open by that angle."""
     width, depth, thickness = LAPTOP
+    if fine < COARSE:
+        lid = quad((-width / 2, 0, 0), (width / 2, 0, 0), (width / 2, depth, 0),
+                   (-width / 2, depth, 0))
+        base = boxes((-width / 2, 0, 0), (width / 2, thickness, depth),
+                     ('bottom', 'back', 'left', 'right', 'front'))
+        return joined(base, moved(rotated(lid, X, opening - PI / 2), 0, thickness, depth))
     if fine < 0.15:
         lid = boxes((-width / 2, 0, 0), (width / 2, depth, 0.07), ('bottom', 'back'))
         base = boxes((-width / 2, 0.01, 0), (width / 2, thickness, depth), ('bottom',))
@@ -40,8 +46,8 @@ def laptop(opening: float, fine: float) -> Array:
                        steps(4 * fine, 1))
     lid = joined(rounded_box((-width / 2, 0, 0), (width / 2, depth, 0.08), 0.035,
                              steps(4 * fine, 1)), bezel(width, depth))
-    hinge = bar(np.array([(-width / 2 + 0.3, thickness, depth), (width / 2 - 0.3, thickness, depth)]),
-                0.055, steps(12 * fine, 4))
+    end = np.array([width / 2 - 0.3, thickness, depth])
+    hinge = bar(np.stack([end * [-1, 1, 1], end]), 0.055, steps(12 * fine, 4))
     pad = boxes((-0.5, thickness - 0.01, 0.12), (0.5, thickness + 0.008, 0.8), ('bottom',))
     return joined(base, keyboard(), pad, hinge,
                   moved(rotated(lid, X, opening - PI / 2), 0, thickness + 0.04, depth))
@@ -50,7 +56,8 @@ def laptop(opening: float, fine: float) -> Array:
 def bezel(width: float, depth: float) -> Array:
     """Around the screen, on the side of the lid that faces the user."""
     a, low, high, edge = width / 2 - 0.04, 0.08, depth - 0.05, 0.12
-    pieces = [((-a, low, -0.02), (a, low + 2 * edge, 0.01)), ((-a, high - edge, -0.02), (a, high, 0.01)),
+    pieces = [((-a, low, -0.02), (a, low + 2 * edge, 0.01)),
+              ((-a, high - edge, -0.02), (a, high, 0.01)),
               ((-a, low + 2 * edge, -0.02), (-a + edge, high - edge, 0.01)),
               ((a - edge, low + 2 * edge, -0.02), (a, high - edge, 0.01))]
     low, high = (np.array(corner) for corner in zip(*pieces))
@@ -71,8 +78,8 @@ def papers(sheets: int, fan: float, fine: float, seed: int) -> Array:
     random = Random(seed)
     height = 0.16
     parts = [boxes((-A4[0] / 2, 0.005, -A4[1] / 2), (A4[0] / 2, height, A4[1] / 2), ('bottom',))]
-    for i in range(sheets if fine > 0.1 else 0):
-        page = sheet(float(random.uniform(0.1, 1.2)), fine)
+    for i in range(sheets if fine > COARSE else 0):
+        page = sheet(float(random.uniform(0.05, 0.45)), fine)
         angle = fan * (i + 1) + float(random.uniform(-0.06, 0.06))
         x, z = random.uniform(-0.12, 0.12, 2)
         parts.append(moved(rotated(page, Y, angle), x, height + 0.012 + 0.016 * i, z))
@@ -81,7 +88,8 @@ def papers(sheets: int, fan: float, fine: float, seed: int) -> Array:
 
 def notebook(fine: float) -> Array:
     """A5, with covers, and wire rings along its left edge."""
-    covers = boxes([(-0.74, 0.005, -1.05), (-0.74, 0.2, -1.05)], [(0.74, 0.03, 1.05), (0.74, 0.225, 1.05)])
+    covers = boxes([(-0.74, 0.005, -1.05), (-0.74, 0.2, -1.05)],
+                   [(0.74, 0.03, 1.05), (0.74, 0.225, 1.05)])
     pages = boxes((-0.66, 0.03, -1.02), (0.71, 0.2, 1.02), ('bottom', 'top'))
     if fine < 0.3:
         return joined(covers, pages)

@@ -6,12 +6,12 @@ What hangs has its back in the plane z = 0 and faces +z; what stands does so on 
 
 import numpy as np
 
-from model.meshes import X, joined, moved, rotated
+from model.meshes import X, Y, Z, joined, moved, rotated
 from model.portable import PI, Random, cos, sin
-from model.shapes import circle, cylinder, lathe, rounded_box, steps, surface
+from model.shapes import cylinder, lathe, rounded_box, steps, surface
 
 from . import desk
-from .basics import bar, boxes, placed
+from .basics import COARSE, bar, boxes, placed
 
 Array = np.ndarray
 SIDEBOARD = 30.0, 6.6, 4.4  # length, height, depth
@@ -40,18 +40,23 @@ def frame(half_width: float, half_height: float, edge: float, depth: float) -> A
 
 def screen(fine: float) -> Array:
     """A large display with a camera bar below."""
+    if fine < COARSE:
+        return boxes((-12.5, -7.0, 0), (12.5, 7.0, 0.9), ('back',))
     panel = boxes((-12.5, -7.0, 0.5), (12.5, 7.0, 0.9))
     bar_below = rounded_box((-4.5, -8.2, 0.5), (4.5, -7.35, 1.4), 0.3, steps(5 * fine, 1))
     lens = moved(rotated(cylinder(0.3, 0, 0.15, steps(24 * fine, 5)), X, PI / 2), 0, -7.78, 1.38)
     return joined(panel, moved(frame(12.5, 7.0, 0.18, 0.6), 0, 0, 0.42),
-                  joined(bar_below, lens) if fine > 0.1 else [])
+                  bar_below, lens)
 
 
 def whiteboard(fine: float) -> Array:
     """With a tray, pens, an eraser, and notes under magnets."""
     a, b = BOARD_HALF_WIDTH, BOARD_HALF_HEIGHT
+    if fine < COARSE:
+        return boxes((-a, -b, 0), (a, b, 0.15), ('back',))
     board = joined(boxes((-a, -b, 0.05), (a, b, 0.15), ('back',)), frame(a, b, 0.25, 0.28))
-    tray = boxes([(-5, -b - 0.45, 0), (-5, -b - 0.35, 1.0)], [(5, -b - 0.3, 1.1), (5, -b - 0.1, 1.1)])
+    tray = boxes([(-5, -b - 0.45, 0), (-5, -b - 0.35, 1.0)],
+                 [(5, -b - 0.3, 1.1), (5, -b - 0.1, 1.1)])
     if fine < 0.2:
         return joined(board, tray)
     random = Random(31)
@@ -66,7 +71,7 @@ def notes(random: Random, fine: float) -> Array:
     parts = []
     for x, y in [(-9.2, 2.6), (-6.4, 3.1), (-8.8, -1.4), (7.5, 2.2), (9.9, 2.5)]:
         page = rotated(desk.sheet(float(random.uniform(0.5, 1.2)), fine), X, PI / 2)
-        page = rotated(page, np.array([0, 0, 1.0]), float(random.uniform(-0.08, 0.08)))
+        page = rotated(page, Z, float(random.uniform(-0.08, 0.08)))
         parts += [moved(page, x, y, 0.165), moved(magnet, x, y + 1.25, 0.15)]
     return joined(parts)
 
@@ -75,6 +80,8 @@ def sideboard(fine: float) -> Array:
     """Five doors with gaps between, on a recessed plinth."""
     length, height, depth = SIDEBOARD
     a = length / 2
+    if fine < COARSE:
+        return boxes((-a, 0, 0), (a, height, depth), ('bottom', 'back'))
     body = boxes((-a, 0.8, 0), (a, height - 0.25, depth - 0.25), ('back',))
     plinth = boxes((-a + 0.5, 0, 0), (a - 0.5, 0.8, depth - 0.8), ('bottom', 'back', 'top'))
     top = rounded_box((-a - 0.15, height - 0.25, 0), (a + 0.15, height, depth + 0.1), 0.06,
@@ -83,10 +90,9 @@ def sideboard(fine: float) -> Array:
     x = -a + length / count * np.arange(count)
     low = np.stack([x + gap / 2, np.full(count, 0.85), np.full(count, depth - 0.26)], axis=-1)
     doors = boxes(low, low + [length / count - gap, height - 1.2, 0.24], ('back',))
-    handles = [bar(np.array([(at + side, height - 2.4, depth), (at + side, height - 2.4, depth + 0.22),
-                             (at + side, height - 0.9, depth + 0.22), (at + side, height - 0.9, depth)]),
-                   0.05, steps(8 * fine, 3))
-               for at in x for side in (length / count - 0.5,)] if fine > 0.1 else []
+    path = np.array([(0, -0.75, -0.05), (0, -0.75, 0.2), (0, 0.75, 0.2), (0, 0.75, -0.05)])
+    handle = bar(path, 0.05, steps(8 * fine, 3))
+    handles = [moved(handle, at + length / count - 0.5, height - 1.65, depth) for at in x]
     return joined(body, plinth, top, doors, handles)
 
 
@@ -102,7 +108,7 @@ def flip_chart(fine: float) -> Array:
     clamp = rounded_box((-3.4, 17.9, 0.3), (3.4, 18.4, 0.75), 0.1, steps(3 * fine, 1))
     ledge = boxes((-3.5, 8.0, 0.2), (3.5, 8.2, 1.2))
     head = rotated(moved(joined(board, pad, clamp, ledge, curled_page(fine)), 0, -8.2, 0), X, tilt)
-    pens = [placed(desk.marker(fine), x, 8.22, 1.45, 0.1) for x in (-1.5, 0.8)] if fine > 0.2 else []
+    pens = [placed(desk.marker(fine), x, 8.22, 1.45, 0.1) for x in (-1.5, 0.8)]
     return joined(legs, moved(head, 0, 8.2, 0.75), pens)
 
 
@@ -122,30 +128,53 @@ def clock(fine: float) -> Array:
     segments = steps(72 * fine, 8)
     case = lathe([(0, 0.0), (1.5, 0.0), (1.55, 0.1), (1.55, 0.32), (1.5, 0.36), (1.42, 0.34),
                   (1.4, 0.2), (0, 0.2)], segments)
-    marks = [rotated(boxes((-0.035 - 0.03 * (i % 3 == 0), 0.19, -1.3), (0.035 + 0.03 * (i % 3 == 0), 0.23, -1.05)),
-                     np.array([0, 1.0, 0]), i * PI / 6) for i in range(12)]
-    hands = [rotated(boxes((-0.05, y, -length), (0.05, y + 0.03, 0.2)), np.array([0, 1.0, 0]), angle)
-             for y, length, angle in ((0.24, 0.75, 10 / 12 * -2 * PI + 2 * PI - 0.5), (0.29, 1.1, -PI / 3))]
+    marks = [hand(0.1 if i % 3 == 0 else 0.05, 1.05, 1.3, 0.19, i * PI / 6) for i in range(12)]
+    hands = [hand(0.1, -0.2, 0.75, 0.24, (10 + 10 / 60) * PI / 6),
+             hand(0.08, -0.25, 1.1, 0.29, PI / 3)]
     pin = cylinder(0.08, 0.2, 0.35, steps(16 * fine, 5))
     return rotated(joined(case, marks, hands, pin), X, PI / 2)
+
+
+def hand(width: float, start: float, end: float, y: float, angle: float) -> Array:
+    """A strip on the face of the clock, at that angle clockwise from 12."""
+    return rotated(boxes((-width / 2, y, -end), (width / 2, y + 0.03, -start)), Y, -angle)
 
 
 def picture(fine: float) -> Array:
     """A framed relief of rings that spread like waves from two points."""
     count = steps(70 * fine, 6)
     x, y = np.meshgrid(np.linspace(-6, 6, count + 1), np.linspace(-4, 4, count + 1), indexing='ij')
-    far = [np.sqrt((x - cx) * (x - cx) + (y - cy) * (y - cy)) for cx, cy in ((-2.6, -0.8), (2.9, 1.2))]
+    far = [np.sqrt((x - at[0]) * (x - at[0]) + (y - at[1]) * (y - at[1]))
+           for at in ((-2.6, -0.8), (2.9, 1.2))]
     z = 0.45 + 0.1 * (cos(4.2 * far[0]) + cos(4.2 * far[1]))
     return joined(surface(np.stack([x, y, z], axis=-1)), frame(6, 4, 0.3, 0.8))
 
 
-def pendulum_projector(fine: float) -> Array:
+def projector(fine: float) -> Array:
     """Hung from the origin on a rod."""
     rod = bar(np.array([(0, 0.0, 0), (0, -3.2, 0)]), 0.14, steps(14 * fine, 4))
-    rose = moved(cylinder(0.5, -0.15, -0.01, steps(24 * fine, 5)), 0, 0, 0)
+    rose = cylinder(0.5, -0.15, -0.01, steps(24 * fine, 5))
     body = rounded_box((-1.9, -4.4, -1.6), (1.9, -3.2, 1.6), 0.25, steps(6 * fine, 1))
-    ring = circle(steps(28 * fine, 6), 0.42)
-    lens = bar(np.array([(-1.85, -3.8, 0.5), (-2.3, -3.8, 0.5)]), 0.42, len(ring))
+    lens = bar(np.array([(-1.85, -3.8, 0.5), (-2.3, -3.8, 0.5)]), 0.42, steps(28 * fine, 6))
     vents = boxes([(-1.2 + 0.3 * i, -4.1, 1.59) for i in range(9)],
                   [(-1.1 + 0.3 * i, -3.5, 1.64) for i in range(9)])
     return joined(rod, rose, body, lens, vents if fine > 0.2 else [])
+
+
+def air_outlet(fine: float) -> Array:
+    """Concentric cones below the ceiling, which is in the plane y = 0."""
+    segments = steps(64 * fine, 8)
+    rings = [lathe([(r, -0.22), (r + 0.06, -0.24), (r + 0.38, -0.02)], segments)
+             for r in (0.35, 0.75, 1.15, 1.55)]
+    return joined(rings, lathe([(0, -0.26), (0.25, -0.25), (0.3, -0.05)], segments))
+
+
+def waste_basket(fine: float) -> Array:
+    """Of upright wires that lean outwards, held by rings."""
+    count, segments = steps(44 * min(1, 2 * fine), 8), steps(6 * fine, 3)
+    wire = bar(np.array([(0.95, 0.1, 0), (1.3, 3.2, 0)]), 0.03, segments)
+    wires = [rotated(wire, Y, i * 2 * PI / count) for i in range(count)]
+    angle = np.arange(steps(48 * fine, 8) + 1) * (2 * PI / steps(48 * fine, 8))
+    hoops = [bar(np.stack([r * cos(angle), np.full_like(angle, y), r * sin(angle)], axis=-1),
+                 0.045, segments) for r, y in ((0.95, 0.1), (1.08, 1.2), (1.3, 3.2))]
+    return joined(wires, hoops, cylinder(0.95, 0.05, 0.1, steps(48 * fine, 8)))

@@ -9,13 +9,13 @@ import numpy as np
 from model.meshes import joined
 from model.shapes import quad, steps, surface
 
-from .basics import boxes
+from .basics import COARSE, boxes
 
 Array = np.ndarray
-HALF_LENGTH, HALF_WIDTH = 10.2, 4.2
-BLADE_HEIGHT, BLADE_GAP = 0.6, 1.2
-BLADE_WIDTH = 0.04, 0.12  # below and above; parabolic in between
-PANEL_HEIGHT, HOUSING_HEIGHT = 4.5, 7.5  # above the ceiling
+HALF_LENGTH, HALF_WIDTH = 11, 6
+BLADE_HEIGHT, BLADE_GAP = 0.4, 1.5
+BLADE_WIDTH = 0.03, 0.07  # below and above; parabolic in between
+PANEL_HEIGHT, HOUSING_HEIGHT = 3.4, 6.5  # above the ceiling
 HOUSING_MARGIN = 3.0
 RIM = 0.22
 
@@ -75,7 +75,7 @@ def blades(count: int, spacing: float, half_length: float, fine: float) -> Array
 def louvre(fine: float) -> Array:
     wider = 1 / min(1, 2 * fine)  # fewer and wider cells where the lamp is coarse
     along = steps(2 * HALF_WIDTH / (BLADE_GAP * wider), 2) - 1
-    across = steps(2 * HALF_LENGTH / (BLADE_GAP * wider), 4) - 1
+    across = steps(2 * HALF_LENGTH / (BLADE_GAP * wider), 3) - 1
     crossing = blades(across, 2 * HALF_LENGTH / (across + 1), HALF_WIDTH, fine)
     return joined(blades(along, 2 * HALF_WIDTH / (along + 1), HALF_LENGTH, fine),
                   crossing[..., [2, 1, 0]])
@@ -83,4 +83,4 @@ def louvre(fine: float) -> Array:
 
 def lamp(fine: float) -> Array:
     """Below the panel; the origin is in the plane of the ceiling."""
-    return joined(housing(), collar(), louvre(fine), rim() if fine > 0.1 else [])
+    return joined(housing(), collar(), louvre(fine), rim() if fine > COARSE else [])

@@ -4,11 +4,11 @@
 import numpy as np
 
 from model import vectors
-from model.meshes import Y, joined
+from model.meshes import X, Y, Z, joined
 from model.portable import PI, Random, cos, power, sin
 from model.shapes import lathe, spline, steps, surface
 
-from .basics import bar
+from .basics import COARSE, bar
 
 Array = np.ndarray
 POT_HEIGHT = 4.6
@@ -21,7 +21,7 @@ def pot(fine: float) -> Array:
     profile = [(0, 0.02), (1.45, 0.02), (1.5, 0.08), (2.1, POT_HEIGHT - 0.06), (2.06, POT_HEIGHT),
                (1.9, POT_HEIGHT), (1.86, POT_HEIGHT - 0.06), (1.84, POT_HEIGHT - 0.5),
                (0, POT_HEIGHT - 0.35)]
-    return lathe(profile if fine > 0.1 else profile[1:4:2] + profile[7:], steps(64 * fine, 5))
+    return lathe(profile if fine > COARSE else profile[1:4:2] + profile[8:], steps(64 * fine, 5))
 
 
 def stems(random: Random, count: int, height: float) -> Array:
@@ -30,7 +30,8 @@ def stems(random: Random, count: int, height: float) -> Array:
     angle = np.arange(count) * GOLDEN_ANGLE + random.uniform(-0.3, 0.3, count)
     spread = random.uniform(0.14, 0.3, count) * height
     rise = random.uniform(0.7, 1.0, count) * height
-    out = 0.5 + spread[:, np.newaxis] * t * t + random.uniform(-0.25, 0.25, (count, STEM_POINTS)) * t
+    sway = random.uniform(-0.25, 0.25, (count, STEM_POINTS))
+    out = 0.5 + spread[:, np.newaxis] * t * t + sway * t
     return np.stack([out * cos(angle)[:, np.newaxis], POT_HEIGHT - 0.6 + rise[:, np.newaxis] * t,
                      out * sin(angle)[:, np.newaxis]], axis=-1)
 
@@ -56,11 +57,12 @@ def leaves(paths: Array, count: int, random: Random, fine: float) -> Array:
     fewer = min(1, 3 * fine)
     count = steps(count * fewer, 4)
     t = np.arange(count) / (count - 1)
-    along, across = steps(12 * fine, 2), 2 * steps(4 * fine, 1) if fine > 0.1 else 1
+    along, across = steps(12 * fine, 2), 2 * steps(4 * fine, 1) if fine > COARSE else 1
     kinds = [leaf(droop, along, across) for droop in (0.3, 0.7, 1.1, 1.5)]
     meshes = []
+    nodes = np.rint((0.22 + 0.78 * t) * (8 * count - 1)).astype(np.int64)
     for path in paths:
-        foot = spline(path, 8 * count)[np.rint((0.22 + 0.78 * t) * (8 * count - 1)).astype(np.int64)]
+        foot = spline(path, 8 * count)[nodes]
         turn = np.arange(count) * GOLDEN_ANGLE + random.uniform(-0.4, 0.4, count)
         rise = -0.15 + 1.05 * t * t + random.uniform(-0.2, 0.2, count)
         length = (3.4 - 1.5 * t) * random.uniform(0.8, 1.15, count) / np.sqrt(fewer)
@@ -73,7 +75,7 @@ def leaves(paths: Array, count: int, random: Random, fine: float) -> Array:
 
 def hung(blade: Array, foot: Array, turn: float, rise: float, roll: float) -> Array:
     """At a stem, a short stalk away."""
-    matrix = vectors.rotation(np.array([[0, 0, 1.0], [-1.0, 0, 0], Y]), np.array([roll, rise, turn]))
+    matrix = vectors.rotation(np.stack([Z, -X, Y]), np.array([roll, rise, turn]))
     mesh = vectors.transformed(blade, matrix[0]) + [0, 0, 0.25]
     for i in (1, 2):
         mesh = vectors.transformed(mesh, matrix[i])
@@ -82,7 +84,9 @@ def hung(blade: Array, foot: Array, turn: float, rise: float, roll: float) -> Ar
 
 def plant(height: float, stem_count: int, leaves_each: int, fine: float, seed: int) -> Array:
     random = Random(seed)
+    if fine < COARSE:
+        stem_count = 2
     paths = stems(random, stem_count, height)
-    trunks = bar(spline(paths, steps(16 * fine, 3)).reshape(stem_count, -1, 3),
-                 np.linspace(0.16, 0.05, steps(16 * fine, 3)), max(3, steps(8 * fine, 3)))
+    points = steps(16 * fine, 2)
+    trunks = bar(spline(paths, points), np.linspace(0.16, 0.05, points), steps(8 * fine, 3))
     return joined(pot(fine), trunks, leaves(paths, leaves_each, random, fine))

@@ -8,7 +8,7 @@ from model.portable import PI, Random
 from model.shapes import cylinder, quad, steps
 
 from . import lamps
-from .basics import bar, bent, boxes
+from .basics import COARSE, bar, bent, boxes
 
 Array = np.ndarray
 HALF_LENGTH, HALF_WIDTH, HEIGHT = 50.0, 35.0, 32.0
@@ -16,7 +16,7 @@ LAMPS_X, LAMPS_Z = (-30.0, 0.0, 30.0), (-13.0, 13.0)
 WINDOWS_X = (-36.0, -12.0, 12.0, 36.0)
 WINDOW_HALF_WIDTH, WINDOW_LOW, WINDOW_HIGH = 10.0, 8.5, 28.5
 REVEAL_DEPTH = 3.0
-SKY = (-46.0, 46.0), (5.0, 31.0), -47.0  # x, y, z of the luminous panel outside
+SKY = (-46.0, 46.0), (8.0, 29.0), -47.0  # x, y, z of the luminous panel outside
 OUTSIDE = (-50.0, 1.0, -51.0), (50.0, 35.0, -35.0)  # corners of the box around it
 DOOR_X = (4.0, 13.5)
 DOOR_HEIGHT = 21.5
@@ -113,6 +113,8 @@ def skirting() -> Array:
 def door(fine: float) -> Array:
     """With its frame, in front of the wall of +z."""
     (x0, x1), z = DOOR_X, HALF_WIDTH
+    if fine < COARSE:
+        return boxes((x0, 0, z - 0.3), (x1, DOOR_HEIGHT, z), ('bottom', 'back'))
     frame = boxes([(x0 - 0.9, 0, z - 0.35), (x1, 0, z - 0.35), (x0 - 0.9, DOOR_HEIGHT, z - 0.35)],
                   [(x0, DOOR_HEIGHT, z), (x1 + 0.9, DOOR_HEIGHT, z),
                    (x1 + 0.9, DOOR_HEIGHT + 0.9, z)], ('bottom', 'back'))
@@ -131,7 +133,7 @@ def door(fine: float) -> Array:
 
 def room(fine: float) -> Array:
     parts = [shell(), lamp_fittings(fine), door(fine)]
-    if fine > 0.1:
+    if fine > COARSE:
         parts += [planks(), skirting()]
     return joined(parts)
 

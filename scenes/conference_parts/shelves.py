@@ -11,7 +11,7 @@ from model.portable import PI, Random, cos, sin
 from model.shapes import quad, steps, surface
 
 from . import tableware
-from .basics import boxes, placed
+from .basics import COARSE, FACES, boxes, placed
 
 Array = np.ndarray
 WIDTH, HEIGHT, DEPTH = 18.0, 26.0, 3.2
@@ -35,6 +35,17 @@ class Books:
         self.sizes.append(size)
         self.corners.append(corner)
         self.leans.append(lean)
+
+
+def sheets() -> Array:
+    """A bookcase of boards without thickness."""
+    inner, row = column_width() + BOARD, row_height()
+    y = [PLINTH + i * row for i in range(ROWS)] + [HEIGHT]
+    boards = [quad((0, at, 0.1), (WIDTH, at, 0.1), (WIDTH, at, DEPTH), (0, at, DEPTH)) for at in y]
+    uprights = [quad((x, 0, 0.1), (x, 0, DEPTH), (x, HEIGHT, DEPTH), (x, HEIGHT, 0.1))
+                for x in (0, inner, 2 * inner)]
+    back = quad((0, 0, 0.09), (WIDTH, 0, 0.09), (WIDTH, HEIGHT, 0.09), (0, HEIGHT, 0.09))
+    return joined(boards, uprights, back)
 
 
 def carcass() -> Array:
@@ -131,8 +142,9 @@ def upright_books(size: Array, fine: float) -> Array:
     """Meshes (books, triangles, 3, 3): lower left rear corner on the origin, spine at +z."""
     count = len(size)
     if fine < 0.2:
-        return boxes(np.zeros_like(size) + [0, 0.004, 0], size,
-                     ('back', 'bottom')).reshape(count, -1, 3, 3)
+        hidden = ('back', 'bottom') if fine > COARSE else [face for face in FACES if face != 'front']
+        low = np.zeros_like(size) + [0, 0.004, 0]
+        return boxes(low, size, hidden).reshape(count, -1, 3, 3)
     thickness, height, depth = size.T
     zero, board = np.zeros(count), np.full(count, COVER)
     lift = np.full(count, 0.005)
@@ -156,10 +168,12 @@ def spines(thickness: Array, height: Array, hinge: Array, fine: float) -> Array:
     bow = np.minimum(0.16, 0.45 * thickness)[:, np.newaxis]
 
     def arc(inset: float) -> tuple[Array, Array]:
-        return half - (half - inset) * cos(angle), hinge[:, np.newaxis] - 0.01 + (bow - inset) * sin(angle)
+        return (half - (half - inset) * cos(angle),
+                hinge[:, np.newaxis] - 0.01 + (bow - inset) * sin(angle))
 
     outer, inner = arc(0.0), arc(COVER)
-    low, high = np.full_like(outer[0], 0.005), np.broadcast_to(height[:, np.newaxis], outer[0].shape)
+    low = np.full_like(outer[0], 0.005)
+    high = np.broadcast_to(height[:, np.newaxis], low.shape)
     ring = [np.stack([x, y, z], axis=-1) for (x, z), y in
             ((inner, low), (outer, low), (outer, high), (inner, high))]
     grid = np.stack(ring, axis=2)  # books, arc, corners of the section
@@ -174,7 +188,8 @@ def ornament(kind: int, fine: float) -> Array:
 
 def file_box(_: float) -> Array:
     """Three magazine files with slanted fronts."""
-    points = np.array([(0, 0.01, -1.2), (0, 0.01, 1.2), (0, 1.5, 1.2), (0, 3.1, -0.2), (0, 3.1, -1.2)])
+    points = np.array([(0, 0.01, -1.2), (0, 0.01, 1.2), (0, 1.5, 1.2), (0, 3.1, -0.2),
+                       (0, 3.1, -1.2)])
     file = surface(np.stack([points, points + [0.85, 0, 0]]), closed_v=True)
     sides = [np.array([points[0], points[i], points[i + 1]]) for i in range(1, 4)]
     one = joined(file, np.array(sides), np.array(sides) + [0.85, 0, 0])
@@ -190,5 +205,5 @@ def bookcase(fine: float, seed: int) -> Array:
             y = PLINTH + row * row_height() + BOARD
             fill_row(books, ornaments, x + 0.05, x + column_width() - 0.05, y, random, thicker)
     things = [placed(ornament(kind, fine), x, y, DEPTH / 2 + 0.2, 0.5 * kind)
-              for x, y, kind in ornaments if fine > 0.1]
-    return joined(carcass(), book_meshes(books, fine), things)
+              for x, y, kind in ornaments if fine > COARSE]
+    return joined(carcass() if fine > COARSE else sheets(), book_meshes(books, fine), things)

@@ -8,7 +8,7 @@ from model.meshes import joined, moved, rotated, scaled, X
 from model.portable import PI, cos, power, sin
 from model.shapes import lathe, rounded_box, steps, surface
 
-from .basics import boxes
+from .basics import COARSE, boxes
 
 Array = np.ndarray
 HALF_LENGTH, HALF_WIDTH = 33.0, 10.0
@@ -54,19 +54,21 @@ def cap(ring: Array) -> Array:
 
 def top(fine: float) -> Array:
     points = steps(90 * fine, 5)
-    profile = EDGE if fine > 0.1 else EDGE[::6]
+    profile = EDGE if fine > COARSE else EDGE[::6]
     rings = [inset_outline(inset, height, points) for inset, height in profile]
     return joined(surface(np.stack(rings, axis=1), closed_u=True), cap(rings[0]), cap(rings[-1]))
 
 
 def pedestal(fine: float) -> Array:
     """An elliptical column that widens towards floor and table, on a flat foot."""
-    t = np.arange(steps(20 * fine, 2) + 1) / steps(20 * fine, 2)
+    rings = steps(20 * fine, 1)
+    t = np.arange(rings + 1) / rings
     waist = 4 * t * (1 - t)
     column = np.stack([1.5 - 0.75 * waist * (1.25 - 0.5 * t), 0.3 + (TOP - 0.8) * t], axis=-1)
     foot = [(3.0, -0.02), (3.0, 0.14), (2.96, 0.2), (1.9, 0.3), (0, 0.3)]
     segments = steps(56 * fine, 4)
-    return scaled(joined(lathe(column, segments), lathe(foot, segments)), 1.5, 1, 1.1)
+    feet = lathe(foot, segments) if fine > COARSE else []
+    return scaled(joined(lathe(column, segments), feet), 1.5, 1, 1.1)
 
 
 def port(fine: float) -> Array:

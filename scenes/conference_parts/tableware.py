@@ -65,7 +65,8 @@ def carafe(fine: float) -> Array:
 
 
 def tray(fine: float) -> Array:
-    profile = [(0, 0.02), (1.75, 0.0), (1.85, 0.06), (1.9, 0.2), (1.86, 0.21), (1.78, 0.08), (0, 0.07)]
+    profile = [(0, 0.02), (1.75, 0.0), (1.85, 0.06), (1.9, 0.2), (1.86, 0.21), (1.78, 0.08),
+               (0, 0.07)]
     return turned(profile, fine, 16, 64)
 
 
@@ -97,7 +98,8 @@ def vase(fine: float) -> Array:
 
 def globe(fine: float) -> Array:
     """On a foot, held by a half ring."""
-    foot = turned([(0, 0.02), (0.7, 0.0), (0.72, 0.1), (0.2, 0.25), (0.12, 0.6), (0, 0.62)], fine, 20, 36)
+    profile = [(0, 0.02), (0.7, 0.0), (0.72, 0.1), (0.2, 0.25), (0.12, 0.6), (0, 0.62)]
+    foot = turned(profile, fine, 20, 36)
     ball = moved(sphere(0.95, steps(44 * fine, 6)), 0, 1.75, 0)
     arc = spline([(0.35, 0.6, 0), (1.0, 0.95, 0), (1.18, 1.75, 0), (0.95, 2.5, 0), (0.3, 2.88, 0)],
                  steps(20 * fine, 4))

@@ -6,11 +6,11 @@ The origin is in the plane of the wall, below the middle of the window; the room
 
 import numpy as np
 
-from model.meshes import joined, moved
+from model.meshes import X, joined, moved
 from model.portable import Random, cos, sin
 from model.shapes import rounded_box, steps, surface
 
-from .basics import bar, bent, boxes
+from .basics import COARSE, bar, bent, boxes
 from .room import WINDOW_HALF_WIDTH, WINDOW_HIGH, WINDOW_LOW
 
 Array = np.ndarray
@@ -38,6 +38,9 @@ def frame() -> Array:
 
 def sill(fine: float) -> Array:
     a = WINDOW_HALF_WIDTH
+    if fine < COARSE:
+        return boxes((-a, WINDOW_LOW - 0.1, FRAME_Z), (a, WINDOW_LOW + 0.1, 1.5),
+                     ('bottom', 'left', 'right', 'front', 'back'))
     board = rounded_box((-a - 0.6, WINDOW_LOW - 0.25, 0.0), (a + 0.6, WINDOW_LOW + 0.1, 1.5), 0.12,
                         steps(4 * fine, 1))
     inner = boxes((-a, WINDOW_LOW - 0.1, FRAME_Z), (a, WINDOW_LOW + 0.1, 0.3), ('bottom', 'back'))
@@ -64,7 +67,7 @@ def blind(lowest: float, tilt: float, fine: float, seed: int) -> Array:
     gap, width = SLAT_GAP * coarser, SLAT_WIDTH * coarser
     total = int((HEAD_RAIL - WINDOW_LOW - 0.5) / gap)
     hanging = int((HEAD_RAIL - lowest - 0.2) / gap)
-    stacked = (total - hanging) if fine > 0.1 else 0
+    stacked = (total - hanging) if fine > COARSE else 0
     tilts = tilt + random.uniform(-0.03, 0.03, hanging)
     heights = HEAD_RAIL - 0.2 - gap * (np.arange(hanging) + 0.5)
     stack_top = HEAD_RAIL - 0.2 - gap * hanging - 0.1
@@ -75,7 +78,7 @@ def blind(lowest: float, tilt: float, fine: float, seed: int) -> Array:
     parts = [slats(heights, tilts, width, across), head_rail()]
     if stacked:
         parts.append(slats(lying, random.uniform(-0.02, 0.02, stacked), width, across))
-    if fine > 0.1:
+    if fine > COARSE:
         parts.append(rounded_box(rail, -rail * [1, 0, 0] + [0, rail_y - 0.02, BLIND_Z + 0.25],
                                  0.08, steps(3 * fine, 1)))
         parts.append(cords(rail_y - 0.1, fine))
@@ -106,10 +109,11 @@ def radiator(fine: float) -> Array:
     pitch = RADIATOR_LENGTH / count
     corners = [(0, low, 0.75), (0, low, 1.25), (0, high, 1.25), (0, high, 0.35),
                (0, low, 0.35), (0, low, 0.8)]
-    element = bar(bent(corners, 0.25, steps(5 * fine, 1)), min(0.16, pitch * 0.4), steps(9 * fine, 3))
+    element = bar(bent(corners, 0.25, steps(5 * fine, 1)), min(0.16, pitch * 0.4),
+                  steps(9 * fine, 3))
     elements = [moved(element, -a + (i + 0.5) * pitch) for i in range(count)]
-    if fine < 0.1:
-        return boxes((-a, low, 0.35), (a, high, 1.2))
+    if fine < COARSE:
+        return boxes((-a, low, 0), (a, high, 1.2), ('bottom', 'back'))
     pipes = [bar(np.array([(-a, y, 0.8), (a, y, 0.8)]), 0.12, steps(9 * fine, 3))
              for y in (low + 0.05, high - 0.05)]
     return joined(elements, pipes, valve(fine))
@@ -117,9 +121,8 @@ def radiator(fine: float) -> Array:
 
 def valve(fine: float) -> Array:
     a = RADIATOR_LENGTH / 2
-    head = bar(np.array([(a, RADIATOR_HIGH - 0.05, 0.8), (a + 0.35, RADIATOR_HIGH - 0.05, 0.8),
-                         (a + 0.36, RADIATOR_HIGH - 0.05, 0.8), (a + 1, RADIATOR_HIGH - 0.05, 0.8)]),
-               np.array([0.12, 0.12, 0.26, 0.22]), steps(16 * fine, 4))
+    path = np.array([a, RADIATOR_HIGH - 0.05, 0.8]) + np.outer([0, 0.35, 0.36, 1], X)
+    head = bar(path, np.array([0.12, 0.12, 0.26, 0.22]), steps(16 * fine, 4))
     pipe = bar(bent([(a, RADIATOR_LOW, 0.8), (a + 0.5, RADIATOR_LOW, 0.8), (a + 0.5, 0, 0.8)], 0.3,
                     steps(6 * fine, 1)), 0.1, steps(9 * fine, 3))
     return joined(head, pipe)
@@ -127,6 +130,6 @@ def valve(fine: float) -> Array:
 
 def window(lowest: float, tilt: float, fine: float, seed: int) -> Array:
     parts = [blind(lowest, tilt, fine, seed), sill(fine), radiator(fine)]
-    if fine > 0.05:
+    if fine > COARSE:
         parts.append(frame())
     return joined(parts)
