@@ -21,8 +21,8 @@ TABLE_X = -2.0
 SEATS_X = np.arange(10) * 6.1 - 27.45
 SEAT_DISTANCE = 2.9  # from the edge of the table to the middle of a chair
 STRAY_CHAIRS = [(-38.0, 25.5, 2.6), (20.5, -29.0, 0.25)]  # x, z, angle
-BLINDS = [(9.3, 0.78), (13.5, 0.7), (9.3, 0.85), (9.3, 0.74)]  # lowest point, tilt of each
-LAMP_EXITANCE, SKY_EXITANCE = 7.5, 1.4
+BLINDS = [(9.3, 0.72), (13.5, 0.62), (9.3, 0.8), (9.3, 0.68)]  # lowest point, tilt of each
+LAMP_EXITANCE, SKY_EXITANCE = 6.5, 1.5
 
 
 def seats() -> Array:
@@ -68,13 +68,14 @@ def at_places(fine: float) -> list[Array]:
     kind = random.uniform(0, 1, count)
     kind[-1] = 0
     has_laptop = kind < 0.45
+    inner = np.abs(spots[:, 0]) < SEATS_X[-1]  # not beside the round corners of the table
     third = np.arange(count) % 3
     parts = [lay(desk.laptop(opening, fine), has_laptop & (third == i), 0.9, 0.0, 0.2)
              for i, opening in enumerate((1.75, 1.9, 2.05))]
     if fine < COARSE:
         return parts
     parts += [lay(desk.papers(4, 0.1, fine, 3), ~has_laptop & (kind < 0.7), 2.2, 0.0),
-              lay(desk.notebook(fine), has_laptop & (kind < 0.3), 1.9, 3.0, 0.3),
+              lay(desk.notebook(fine), has_laptop & (kind < 0.3) & inner, 1.9, 3.0, 0.3),
               lay(desk.folder(fine), (kind >= 0.7) & (kind < 0.85), 2.3, 0.1, 0.3),
               lay(desk.notebook(fine), kind >= 0.85, 1.9, 0.2, 0.4),
               lay(desk.pen(fine), kind >= 0.45, 2.1, -1.55, 1.5),
@@ -134,7 +135,8 @@ def build(detail: float) -> Model:
     geometry = joined(room.room(fine), walls, furniture(fine), chairs(fine),
                       moved(joined(on_table), TABLE_X, 0, 0))
     panels = joined([lamps.panel(x, room.HEIGHT, z) for x in room.LAMPS_X for z in room.LAMPS_Z])
-    return Model(geometry, lights=[(room.sky(), SKY_EXITANCE), (panels, LAMP_EXITANCE)])
+    return Model(geometry, lights=[(room.sky(), SKY_EXITANCE), (panels, LAMP_EXITANCE)],
+                 reflectance=0.65)
 
 
 if __name__ == '__main__':

@@ -71,7 +71,7 @@ def armrest(fine: float) -> Array:
 def chair(fine: float) -> Array:
     columns = 1 if fine < COARSE else steps(24 * fine, 2)
     parts = [cushion(seat_shape, columns, columns), frame(fine)]
-    parts.append(cushion(back_shape, columns, 1 if columns == 1 else steps(40 * fine, 2)))
+    parts.append(cushion(back_shape, columns, 1 if columns == 1 else steps(36 * fine, 2)))
     if fine > COARSE:
         right = armrest(fine)
         parts += [right, right * [-1, 1, 1]]

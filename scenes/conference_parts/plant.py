@@ -57,7 +57,7 @@ def leaves(paths: Array, count: int, random: Random, fine: float) -> Array:
     fewer = min(1, 3 * fine)
     count = steps(count * fewer, 4)
     t = np.arange(count) / (count - 1)
-    along, across = steps(12 * fine, 2), 2 * steps(4 * fine, 1) if fine > COARSE else 1
+    along, across = steps(16 * fine, 2), 2 * steps(5 * fine, 1) if fine > COARSE else 1
     kinds = [leaf(droop, along, across) for droop in (0.3, 0.7, 1.1, 1.5)]
     meshes = []
     nodes = np.rint((0.22 + 0.78 * t) * (8 * count - 1)).astype(np.int64)

@@ -142,7 +142,7 @@ def upright_books(size: Array, fine: float) -> Array:
     """Meshes (books, triangles, 3, 3): lower left rear corner on the origin, spine at +z."""
     count = len(size)
     if fine < 0.2:
-        hidden = ('back', 'bottom') if fine > COARSE else [face for face in FACES if face != 'front']
+        hidden = ('back', 'bottom') if fine > COARSE else [f for f in FACES if f != 'front']
         low = np.zeros_like(size) + [0, 0.004, 0]
         return boxes(low, size, hidden).reshape(count, -1, 3, 3)
     thickness, height, depth = size.T
