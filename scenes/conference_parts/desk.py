@@ -56,12 +56,12 @@ def laptop(opening: float, fine: float) -> Array:
 def bezel(width: float, depth: float) -> Array:
     """Around the screen, on the side of the lid that faces the user."""
     a, low, high, edge = width / 2 - 0.04, 0.08, depth - 0.05, 0.12
-    pieces = [((-a, low, -0.02), (a, low + 2 * edge, 0.01)),
-              ((-a, high - edge, -0.02), (a, high, 0.01)),
-              ((-a, low + 2 * edge, -0.02), (-a + edge, high - edge, 0.01)),
-              ((a - edge, low + 2 * edge, -0.02), (a, high - edge, 0.01))]
-    low, high = (np.array(corner) for corner in zip(*pieces))
-    return boxes(low, high, ('front',))
+    level = boxes([(-a, low, -0.02), (-a, high - edge, -0.02)],
+                  [(a, low + 2 * edge, 0.01), (a, high, 0.01)], ('front',))
+    upright = boxes([(-a, low + 2 * edge, -0.02), (a - edge, low + 2 * edge, -0.02)],
+                    [(-a + edge, high - edge, 0.01), (a, high - edge, 0.01)],
+                    ('front', 'bottom', 'top'))
+    return joined(level, upright)
 
 
 def sheet(curl: float, fine: float) -> Array:
@@ -112,9 +112,9 @@ def pen(fine: float) -> Array:
 def folder(fine: float) -> Array:
     """A clasp folder, closed around a few pages."""
     covers = boxes([(-1.2, 0.005, -1.6), (-1.2, 0.21, -1.6)], [(1.2, 0.03, 1.6), (1.2, 0.24, 1.6)])
-    spine = boxes((-1.22, 0.01, -1.6), (-1.19, 0.235, 1.6))
+    spine = boxes((-1.22, 0.01, -1.59), (-1.19, 0.235, 1.59))
     pages = boxes((-1.15, 0.03, -1.5), (1.05, 0.21, 1.48), ('bottom', 'top'))
-    band = boxes((0.75, 0.0, -1.61), (0.85, 0.25, 1.61))
+    band = boxes((0.75, 0.003, -1.61), (0.85, 0.25, 1.61))
     return joined(covers, spine, pages, band if fine > 0.2 else [])
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from model.meshes import X, Y, Z, joined, moved, rotated
 from model.portable import PI, Random, cos, sin
-from model.shapes import cylinder, lathe, rounded_box, steps, surface
+from model.shapes import cylinder, lathe, quad, rounded_box, steps, surface
 
 from . import desk
 from .basics import COARSE, bar, boxes, placed
@@ -31,18 +31,18 @@ def slat_panel(fine: float) -> Array:
 def frame(half_width: float, half_height: float, edge: float, depth: float) -> Array:
     """Four bars around a rectangle."""
     a, b = half_width, half_height
-    pieces = [((-a - edge, b), (a + edge, b + edge)), ((-a - edge, -b - edge), (a + edge, -b)),
-              ((-a - edge, -b), (-a, b)), ((a, -b), (a + edge, b))]
-    low, high = (np.array([(*corner, z) for corner in corners], dtype=float)
-                 for corners, z in zip(zip(*pieces), (0, depth)))
-    return boxes(low, high, ('back',))
+    level = boxes([(-a - edge, b, 0), (-a - edge, -b - edge, 0)],
+                  [(a + edge, b + edge, depth), (a + edge, -b, depth)], ('back',))
+    upright = boxes([(-a - edge, -b, 0), (a, -b, 0)], [(-a, b, depth), (a + edge, b, depth)],
+                    ('back', 'bottom', 'top'))
+    return joined(level, upright)
 
 
 def screen(fine: float) -> Array:
     """A large display with a camera bar below."""
     if fine < COARSE:
-        return boxes((-12.5, -7.0, 0), (12.5, 7.0, 0.9), ('back',))
-    panel = boxes((-12.5, -7.0, 0.5), (12.5, 7.0, 0.9))
+        return quad((-12.5, -7.0, 0.9), (12.5, -7.0, 0.9), (12.5, 7.0, 0.9), (-12.5, 7.0, 0.9))
+    panel = boxes((-12.52, -7.02, 0.5), (12.52, 7.02, 0.9))
     bar_below = rounded_box((-4.5, -8.2, 0.5), (4.5, -7.35, 1.4), 0.3, steps(5 * fine, 1))
     lens = moved(rotated(cylinder(0.3, 0, 0.15, steps(24 * fine, 5)), X, PI / 2), 0, -7.78, 1.38)
     return joined(panel, moved(frame(12.5, 7.0, 0.18, 0.6), 0, 0, 0.42),
@@ -53,16 +53,17 @@ def whiteboard(fine: float) -> Array:
     """With a tray, pens, an eraser, and notes under magnets."""
     a, b = BOARD_HALF_WIDTH, BOARD_HALF_HEIGHT
     if fine < COARSE:
-        return boxes((-a, -b, 0), (a, b, 0.15), ('back',))
-    board = joined(boxes((-a, -b, 0.05), (a, b, 0.15), ('back',)), frame(a, b, 0.25, 0.28))
-    tray = boxes([(-5, -b - 0.45, 0), (-5, -b - 0.35, 1.0)],
-                 [(5, -b - 0.3, 1.1), (5, -b - 0.1, 1.1)])
+        return quad((-a, -b, 0.15), (a, -b, 0.15), (a, b, 0.15), (-a, b, 0.15))
+    board = joined(boxes((-a - 0.02, -b - 0.02, 0.05), (a + 0.02, b + 0.02, 0.15), ('back',)),
+                   frame(a, b, 0.25, 0.28))
+    tray = boxes([(-5, -b - 0.45, 0), (-5.02, -b - 0.4, 1.0)],
+                 [(5, -b - 0.3, 1.1), (5.02, -b - 0.1, 1.12)], ('back',))
     if fine < 0.2:
         return joined(board, tray)
     random = Random(31)
     pens = [placed(desk.marker(fine), x, -b - 0.3, 0.55, float(random.uniform(-0.25, 0.25)))
             for x in (-3.6, -1.9, -0.3, 3.4)]
-    eraser = rounded_box((1.0, -b - 0.3, 0.3), (2.3, -b + 0.1, 0.85), 0.08, steps(3 * fine, 1))
+    eraser = rounded_box((1.0, -b - 0.29, 0.3), (2.3, -b + 0.1, 0.85), 0.08, steps(3 * fine, 1))
     return joined(board, tray, pens, eraser, notes(random, fine))
 
 
@@ -72,7 +73,7 @@ def notes(random: Random, fine: float) -> Array:
     for x, y in [(-9.2, 2.6), (-6.4, 3.1), (-8.8, -1.4), (7.5, 2.2), (9.9, 2.5)]:
         page = rotated(desk.sheet(float(random.uniform(0.5, 1.2)), fine), X, PI / 2)
         page = rotated(page, Z, float(random.uniform(-0.08, 0.08)))
-        parts += [moved(page, x, y, 0.165), moved(magnet, x, y + 1.25, 0.15)]
+        parts += [moved(page, x, y, 0.165), moved(magnet, x, y + 1.25, 0.14)]
     return joined(parts)
 
 
@@ -82,7 +83,7 @@ def sideboard(fine: float) -> Array:
     a = length / 2
     if fine < COARSE:
         return boxes((-a, 0, 0), (a, height, depth), ('bottom', 'back'))
-    body = boxes((-a, 0.8, 0), (a, height - 0.25, depth - 0.25), ('back',))
+    body = boxes((-a, 0.8, 0), (a, height - 0.25, depth - 0.25), ('back', 'top'))
     plinth = boxes((-a + 0.5, 0, 0), (a - 0.5, 0.8, depth - 0.8), ('bottom', 'back', 'top'))
     top = rounded_box((-a - 0.15, height - 0.25, 0), (a + 0.15, height, depth + 0.1), 0.06,
                       steps(3 * fine, 1))
@@ -104,11 +105,11 @@ def flip_chart(fine: float) -> Array:
                                ((0, 0, -4.2), (0, 17.5, -0.2)))]
     tilt = -0.085
     board = boxes((-3.5, 8.2, 0.2), (3.5, 18.6, 0.35))
-    pad = boxes((-3.3, 8.6, 0.35), (3.3, 18.2, 0.5))
+    pad = boxes((-3.3, 8.6, 0.34), (3.3, 18.2, 0.5))
     clamp = rounded_box((-3.4, 17.9, 0.3), (3.4, 18.4, 0.75), 0.1, steps(3 * fine, 1))
-    ledge = boxes((-3.5, 8.0, 0.2), (3.5, 8.2, 1.2))
+    ledge = boxes((-3.52, 8.0, 0.15), (3.52, 8.25, 1.2))
     head = rotated(moved(joined(board, pad, clamp, ledge, curled_page(fine)), 0, -8.2, 0), X, tilt)
-    pens = [placed(desk.marker(fine), x, 8.22, 1.45, 0.1) for x in (-1.5, 0.8)]
+    pens = [placed(desk.marker(fine), x, 8.27, 1.45, 0.1) for x in (-1.5, 0.8)]
     return joined(legs, moved(head, 0, 8.2, 0.75), pens)
 
 
@@ -126,12 +127,12 @@ def curled_page(fine: float) -> Array:
 def clock(fine: float) -> Array:
     """Ten past ten."""
     segments = steps(72 * fine, 8)
-    case = lathe([(0, 0.0), (1.5, 0.0), (1.55, 0.1), (1.55, 0.32), (1.5, 0.36), (1.42, 0.34),
+    case = lathe([(1.5, 0.0), (1.55, 0.1), (1.55, 0.32), (1.5, 0.36), (1.42, 0.34),
                   (1.4, 0.2), (0, 0.2)], segments)
     marks = [hand(0.1 if i % 3 == 0 else 0.05, 1.05, 1.3, 0.19, i * PI / 6) for i in range(12)]
     hands = [hand(0.1, -0.2, 0.75, 0.24, (10 + 10 / 60) * PI / 6),
              hand(0.08, -0.25, 1.1, 0.29, PI / 3)]
-    pin = cylinder(0.08, 0.2, 0.35, steps(16 * fine, 5))
+    pin = cylinder(0.08, 0.15, 0.35, steps(16 * fine, 5))
     return rotated(joined(case, marks, hands, pin), X, PI / 2)
 
 
@@ -152,7 +153,7 @@ def picture(fine: float) -> Array:
 
 def projector(fine: float) -> Array:
     """Hung from the origin on a rod."""
-    rod = bar(np.array([(0, 0.0, 0), (0, -3.2, 0)]), 0.14, steps(14 * fine, 4))
+    rod = bar(np.array([(0, 0.05, 0), (0, -3.3, 0)]), 0.14, steps(14 * fine, 4))
     rose = cylinder(0.5, -0.15, -0.01, steps(24 * fine, 5))
     body = rounded_box((-1.9, -4.4, -1.6), (1.9, -3.2, 1.6), 0.25, steps(6 * fine, 1))
     lens = bar(np.array([(-1.85, -3.8, 0.5), (-2.3, -3.8, 0.5)]), 0.42, steps(28 * fine, 6))

@@ -6,7 +6,7 @@ The panel keeps its distance from all that it shines on, or paths that end there
 
 import numpy as np
 
-from model.meshes import joined
+from model.meshes import joined, moved
 from model.shapes import quad, steps, surface
 
 from .basics import COARSE, boxes
@@ -42,9 +42,9 @@ def rim() -> Array:
     """A narrow frame below the ceiling."""
     a, b = HALF_LENGTH, HALF_WIDTH
     long_sides = boxes([(-a - RIM, -0.08, -b - RIM), (-a - RIM, -0.08, b)],
-                       [(a + RIM, 0.02, -b), (a + RIM, 0.02, b + RIM)], ('top',))
+                       [(a + RIM, 0, -b), (a + RIM, 0, b + RIM)], ('top',))
     short_sides = boxes([(-a - RIM, -0.08, -b), (a, -0.08, -b)],
-                        [(-a, 0.02, b), (a + RIM, 0.02, b)], ('top',))
+                        [(-a, 0, b), (a + RIM, 0, b)], ('top', 'front', 'back'))
     return joined(long_sides, short_sides)
 
 
@@ -78,7 +78,7 @@ def louvre(fine: float) -> Array:
     across = steps(2 * HALF_LENGTH / (BLADE_GAP * wider), 3) - 1
     crossing = blades(across, 2 * HALF_LENGTH / (across + 1), HALF_WIDTH, fine)
     return joined(blades(along, 2 * HALF_WIDTH / (along + 1), HALF_LENGTH, fine),
-                  crossing[..., [2, 1, 0]])
+                  moved(crossing[..., [2, 1, 0]], 0, 0.01, 0))
 
 
 def lamp(fine: float) -> Array:

@@ -101,34 +101,34 @@ def bevelled(tops: Array, low: Array, high: Array) -> Array:
 def skirting() -> Array:
     a, b, height, depth = HALF_LENGTH, HALF_WIDTH, 0.9, 0.14
     door_frame = 0.9
-    pieces = [((-a, 0, b - depth), (DOOR_X[0] - door_frame, height, b)),
-              ((DOOR_X[1] + door_frame, 0, b - depth), (a, height, b)),
-              ((-a, 0, -b), (a, height, -b + depth)),
-              ((-a, 0, -b + depth), (-a + depth, height, b - depth)),
-              ((a - depth, 0, -b + depth), (a, height, b - depth))]
-    low, high = (np.array(corner, dtype=float) for corner in zip(*pieces))
-    return boxes(low, high, ('bottom',))
+    front = boxes([(-a, 0, b - depth), (DOOR_X[1] + door_frame, 0, b - depth)],
+                  [(DOOR_X[0] - door_frame, height, b), (a, height, b)],
+                  ('bottom', 'front', 'left', 'right'))
+    back = boxes((-a, 0, -b), (a, height, -b + depth), ('bottom', 'back', 'left', 'right'))
+    left = boxes((-a, 0, -b + depth), (-a + depth, height, b - depth),
+                 ('bottom', 'left', 'front', 'back'))
+    return joined(front, back, left, left * [-1, 1, 1])
 
 
 def door(fine: float) -> Array:
     """With its frame, in front of the wall of +z."""
     (x0, x1), z = DOOR_X, HALF_WIDTH
     if fine < COARSE:
-        return boxes((x0, 0, z - 0.3), (x1, DOOR_HEIGHT, z), ('bottom', 'back'))
-    frame = boxes([(x0 - 0.9, 0, z - 0.35), (x1, 0, z - 0.35), (x0 - 0.9, DOOR_HEIGHT, z - 0.35)],
-                  [(x0, DOOR_HEIGHT, z), (x1 + 0.9, DOOR_HEIGHT, z),
-                   (x1 + 0.9, DOOR_HEIGHT + 0.9, z)], ('bottom', 'back'))
-    leaf = boxes((x0 + 0.04, 0.2, z - 0.22), (x1 - 0.04, DOOR_HEIGHT - 0.04, z), ('back',))
+        return boxes((x0, 0, z - 0.3), (x1, DOOR_HEIGHT, z), ('bottom', 'front'))
+    posts = boxes([(x0 - 0.9, 0, z - 0.35), (x1, 0, z - 0.35)],
+                  [(x0, DOOR_HEIGHT, z), (x1 + 0.9, DOOR_HEIGHT, z)], ('bottom', 'top', 'front'))
+    lintel = boxes((x0 - 0.9, DOOR_HEIGHT, z - 0.35), (x1 + 0.9, DOOR_HEIGHT + 0.9, z), ('front',))
+    leaf = boxes((x0 + 0.04, 0.2, z - 0.22), (x1 - 0.04, DOOR_HEIGHT - 0.04, z), ('front',))
     if fine < 0.2:
-        return joined(frame, leaf)
+        return joined(posts, lintel, leaf)
     grooves = np.arange(4)[:, np.newaxis] * [0, 4.8, 0]
     panels = boxes([x0 + 0.9, 1.2, z - 0.3] + grooves, [x1 - 0.9, 5.5, z - 0.2] + grooves,
                    ('front',))
     rosette = rotated(cylinder(0.28, 0, 0.08, steps(28 * fine, 8)), X, -PI / 2)
-    lever = bar(bent([(0, 0, 0), (0, 0, -0.55), (-1.25, 0, -0.55)], 0.25, steps(8 * fine, 1)), 0.09,
+    lever = bar(bent([(0, 0, -0.03), (0, 0, -0.55), (-1.25, 0, -0.55)], 0.25, steps(8 * fine, 1)), 0.09,
                 steps(12 * fine, 4))
-    handle = moved(joined(rosette, lever), x1 - 0.5, 10.4, z - 0.22)
-    return joined(frame, leaf, panels, handle)
+    handle = moved(joined(rosette, lever), x1 - 0.5, 10.4, z - 0.2)
+    return joined(posts, lintel, leaf, panels, handle)
 
 
 def room(fine: float) -> Array:

@@ -50,17 +50,16 @@ def sheets() -> Array:
 
 def carcass() -> Array:
     inner, row = column_width(), row_height()
-    top = HEIGHT - BOARD
-    uprights_x = [i * (inner + BOARD) for i in range(COLUMNS + 1)]
-    low = [(x, 0, 0.02) for x in uprights_x]
-    high = [(x + BOARD, HEIGHT, DEPTH) for x in uprights_x]
-    for x in uprights_x[:-1]:
-        for y in [PLINTH + i * row for i in range(ROWS)] + [top]:
-            low.append((x + BOARD, y, 0.1))
-            high.append((x + BOARD + inner, y + BOARD, DEPTH - 0.04))
-    plinth = boxes((BOARD, 0, 0.1), (WIDTH - BOARD, PLINTH, DEPTH - 0.4), ('bottom', 'top', 'back'))
+    uprights_x = BOARD / 2 + np.arange(COLUMNS + 1) * (inner + BOARD)
+    uprights = [boxes((x - BOARD / 2, -0.02, 0.02), (x + BOARD / 2, HEIGHT, DEPTH))
+                for x in uprights_x]
+    shelves = [boxes((x + BOARD / 2, y, 0.1), (x + BOARD / 2 + inner, y + BOARD, DEPTH - 0.04),
+                     ('left', 'right'))
+               for x in uprights_x[:-1] for y in [PLINTH + i * row for i in range(ROWS + 1)]]
+    plinth = boxes((BOARD, 0, 0.1), (WIDTH - BOARD, PLINTH, DEPTH - 0.4),
+                   ('bottom', 'top', 'back', 'left', 'right'))
     back = quad((0, 0, 0.09), (WIDTH, 0, 0.09), (WIDTH, HEIGHT, 0.09), (0, HEIGHT, 0.09))
-    return joined(boxes(low, high), plinth, back)
+    return joined(uprights, shelves, plinth, back)
 
 
 def column_width() -> float:
@@ -121,6 +120,7 @@ def lean_last(books: Books, x: float, end: float, random: Random) -> float:
 
 def lying_pile(books: Books, x: float, y: float, random: Random, thicker: float) -> None:
     """Books on their side: turned by a quarter, so the spine still shows."""
+    y += 0.006
     for _ in range(2 + int(random.integers(4))):
         thickness = float(random.uniform(0.15, 0.4)) * min(thicker, 2)
         length, depth = random.uniform(2.0, 2.5), random.uniform(1.5, 1.9)
@@ -154,7 +154,8 @@ def upright_books(size: Array, fine: float) -> Array:
         return boxes(np.stack([x0, lift, zero], -1), np.stack([x1, height, hinge], -1))
 
     pages = boxes(np.stack([board, lift + PAGES_INSET, zero + PAGES_INSET], -1),
-                  np.stack([thickness - COVER, height - PAGES_INSET, hinge], -1), ('front',))
+                  np.stack([thickness - COVER, height - PAGES_INSET, hinge], -1),
+                  ('front', 'left', 'right'))
     meshes = [boards(zero, board), boards(thickness - COVER, thickness), pages]
     return np.concatenate([mesh.reshape(count, -1, 3, 3) for mesh in meshes]
                           + [spines(thickness, height, hinge, fine)], axis=1)
@@ -169,7 +170,7 @@ def spines(thickness: Array, height: Array, hinge: Array, fine: float) -> Array:
 
     def arc(inset: float) -> tuple[Array, Array]:
         return (half - (half - inset) * cos(angle),
-                hinge[:, np.newaxis] - 0.01 + (bow - inset) * sin(angle))
+                hinge[:, np.newaxis] + (bow - inset) * sin(angle))
 
     outer, inner = arc(0.0), arc(COVER)
     low = np.full_like(outer[0], 0.005)

@@ -76,7 +76,8 @@ def port(fine: float) -> Array:
     frame = joined(boxes([(-1.5, TOP - 0.01, -0.6), (-1.5, TOP - 0.01, 0.5)],
                          [(1.5, TOP + 0.05, -0.5), (1.5, TOP + 0.05, 0.6)], ('bottom',)),
                    boxes([(-1.5, TOP - 0.01, -0.5), (1.4, TOP - 0.01, -0.5)],
-                         [(-1.4, TOP + 0.05, 0.5), (1.5, TOP + 0.05, 0.5)], ('bottom',)))
+                         [(-1.4, TOP + 0.05, 0.5), (1.5, TOP + 0.05, 0.5)],
+                         ('bottom', 'front', 'back')))
     x = np.arange(6) * 0.44 - 1.1
     at = np.stack([x, np.full(6, TOP - 0.01), np.zeros(6)], axis=-1)
     sockets = boxes(at - [0.17, 0, 0.3], at + [0.17, 0.03, 0.3], ('bottom',))

@@ -51,7 +51,7 @@ def cup_and_saucer(fine: float) -> Array:
 
 def glass(fine: float) -> Array:
     """A tumbler, half full of water."""
-    profile = [(0.0, 0.0), (0.26, 0.0), (0.29, 0.04), (0.33, 0.6), (0.35, 1.1), (0.345, 1.115),
+    profile = [(0.0, 0.03), (0.26, 0.005), (0.29, 0.04), (0.33, 0.6), (0.35, 1.1), (0.345, 1.115),
                (0.335, 1.1), (0.32, 0.75), (0.31, 0.6)]
     water = lathe([(0.316, 0.62), (0, 0.62)], steps(32 * fine, 5))
     return joined(turned(profile, fine, 22, 32), water)

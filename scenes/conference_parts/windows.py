@@ -25,13 +25,13 @@ RADIATOR_LENGTH, RADIATOR_LOW, RADIATOR_HIGH = 15.0, 1.3, 7.0
 
 def frame() -> Array:
     """Fixed frame and two casements, each with a bar at two thirds of the height."""
-    a, low, high = WINDOW_HALF_WIDTH, WINDOW_LOW, WINDOW_HIGH
+    a, low, high = WINDOW_HALF_WIDTH + 0.02, WINDOW_LOW - 0.02, WINDOW_HIGH + 0.02
     transom = low + 0.68 * (high - low)
     pieces = [((-a, low, 0), (-a + 0.7, high, 0.7)), ((a - 0.7, low, 0), (a, high, 0.7)),
-              ((-a + 0.7, low, 0.01), (a - 0.7, low + 0.7, 0.69)),
-              ((-a + 0.7, high - 0.7, 0.01), (a - 0.7, high, 0.69)),
-              ((-0.45, low + 0.7, 0), (0.45, high - 0.7, 0.75)),
-              ((-a + 0.7, transom - 0.3, 0.05), (a - 0.7, transom + 0.3, 0.6))]
+              ((-a + 0.6, low, 0.01), (a - 0.6, low + 0.7, 0.69)),
+              ((-a + 0.6, high - 0.7, 0.01), (a - 0.6, high, 0.69)),
+              ((-0.45, low + 0.6, -0.02), (0.45, high - 0.6, 0.75)),
+              ((-a + 0.6, transom - 0.3, 0.05), (a - 0.6, transom + 0.3, 0.6))]
     low, high = (np.array(corner, dtype=float) for corner in zip(*pieces))
     return moved(boxes(low, high), 0, 0, FRAME_Z)
 
@@ -41,9 +41,10 @@ def sill(fine: float) -> Array:
     if fine < COARSE:
         return boxes((-a, WINDOW_LOW - 0.1, FRAME_Z), (a, WINDOW_LOW + 0.1, 1.5),
                      ('bottom', 'left', 'right', 'front', 'back'))
-    board = rounded_box((-a - 0.6, WINDOW_LOW - 0.25, 0.0), (a + 0.6, WINDOW_LOW + 0.1, 1.5), 0.12,
-                        steps(4 * fine, 1))
-    inner = boxes((-a, WINDOW_LOW - 0.1, FRAME_Z), (a, WINDOW_LOW + 0.1, 0.3), ('bottom', 'back'))
+    board = rounded_box((-a - 0.6, WINDOW_LOW - 0.25, -0.05), (a + 0.6, WINDOW_LOW + 0.1, 1.5),
+                        0.12, steps(4 * fine, 1))
+    inner = boxes((-a - 0.04, WINDOW_LOW - 0.1, FRAME_Z + 0.1), (a + 0.04, WINDOW_LOW + 0.08, 0.3),
+                  ('bottom', 'back'))
     return joined(board, inner)
 
 
@@ -121,9 +122,11 @@ def radiator(fine: float) -> Array:
 
 def valve(fine: float) -> Array:
     a = RADIATOR_LENGTH / 2
-    path = np.array([a, RADIATOR_HIGH - 0.05, 0.8]) + np.outer([0, 0.35, 0.36, 1], X)
+    along = np.array([-0.1, 0.35, 0.36, 1])[:, np.newaxis]
+    path = np.array([a, RADIATOR_HIGH - 0.05, 0.8]) + along * X
     head = bar(path, np.array([0.12, 0.12, 0.26, 0.22]), steps(16 * fine, 4))
-    pipe = bar(bent([(a, RADIATOR_LOW, 0.8), (a + 0.5, RADIATOR_LOW, 0.8), (a + 0.5, 0, 0.8)], 0.3,
+    pipe = bar(bent([(a - 0.1, RADIATOR_LOW, 0.8), (a + 0.5, RADIATOR_LOW, 0.8),
+                     (a + 0.5, -0.05, 0.8)], 0.3,
                     steps(6 * fine, 1)), 0.1, steps(9 * fine, 3))
     return joined(head, pipe)
 
