@@ -10,7 +10,7 @@ import numpy as np
 
 from conference_parts import desk, fittings, lamps, plant, room, shelves, tableware, windows
 from conference_parts import table as tables
-from conference_parts.basics import COARSE, placed, standing
+from conference_parts.basics import COARSE, MEDIUM, placed, standing
 from conference_parts.chair import chair
 from model.generator import Model, run
 from model.meshes import joined, moved
@@ -77,8 +77,10 @@ def at_places(fine: float) -> list[Array]:
     parts += [lay(desk.papers(4, 0.1, fine, 3), ~has_laptop & (kind < 0.7), 2.2, 0.0),
               lay(desk.notebook(fine), has_laptop & (kind < 0.3) & inner, 1.9, 3.0, 0.3),
               lay(desk.folder(fine), (kind >= 0.7) & (kind < 0.85), 2.3, 0.1, 0.3),
-              lay(desk.notebook(fine), kind >= 0.85, 1.9, 0.2, 0.4),
-              lay(desk.pen(fine), kind >= 0.45, 2.1, -1.55, 1.5),
+              lay(desk.notebook(fine), kind >= 0.85, 1.9, 0.2, 0.4)]
+    if fine < MEDIUM:
+        return parts
+    parts += [lay(desk.pen(fine), kind >= 0.45, 2.1, -1.55, 1.5),
               lay(tableware.cup_and_saucer(fine), random.uniform(0, 1, count) < 0.7, 4.4, -2.3, 3),
               lay(tableware.glass(fine), random.uniform(0, 1, count) < 0.6, 4.9, -0.6)]
     return parts
@@ -119,8 +121,9 @@ def furniture(fine: float) -> list[Array]:
                   placed(fittings.clock(fine), -24, 21, -b),
                   placed(fittings.picture(fine), 28, 16, b, PI),
                   placed(plant.plant(12, 4, 20, fine, 8), 44.5, floor, -29.5),
-                  placed(fittings.projector(fine), 6, room.HEIGHT, 0),
-                  placed(fittings.waste_basket(fine), -1.2, floor, b - 1.8),
+                  placed(fittings.projector(fine), 6, room.HEIGHT, 0)]
+    if fine > MEDIUM:
+        parts += [placed(fittings.waste_basket(fine), -1.2, floor, b - 1.8),
                   *on_sideboard(fine)]
         parts += [placed(fittings.air_outlet(fine), x, room.HEIGHT, 0) for x in (-32, 34)]
     return parts
@@ -128,7 +131,7 @@ def furniture(fine: float) -> list[Array]:
 
 def build(detail: float) -> Model:
     fine = float(np.sqrt(detail))
-    middle = along_the_middle(fine) if fine > COARSE else []
+    middle = along_the_middle(fine) if fine > MEDIUM else []
     on_table = [tables.table(fine), *at_places(fine), *middle]
     walls = [moved(windows.window(lowest, tilt, fine, seed), x, 0, -room.HALF_WIDTH)
              for seed, (x, (lowest, tilt)) in enumerate(zip(room.WINDOWS_X, BLINDS))]

@@ -11,7 +11,7 @@ from model.portable import PI, sin
 from model.shapes import box, surface, tubes
 
 Array = np.ndarray
-COARSE = 0.1  # of a lesser fineness, things are reduced to their main masses
+COARSE, MEDIUM = 0.1, 0.17  # of a lesser fineness, things are reduced to their main masses
 FACES = ('bottom', 'top', 'front', 'back', 'left', 'right')  # of shapes.box; front is z, right x
 
 

@@ -10,7 +10,7 @@ from model.meshes import joined, moved
 from model.portable import exp
 from model.shapes import rounded_box, steps
 
-from .basics import COARSE, bar, bent, cushion, mirrored, rounded_square, seam
+from .basics import COARSE, MEDIUM, bar, bent, cushion, mirrored, rounded_square, seam
 
 Array = np.ndarray
 TUBE, PIPING = 0.12, 0.045
@@ -72,7 +72,7 @@ def chair(fine: float) -> Array:
     columns = 1 if fine < COARSE else steps(24 * fine, 2)
     parts = [cushion(seat_shape, columns, columns), frame(fine)]
     parts.append(cushion(back_shape, columns, 1 if columns == 1 else steps(36 * fine, 2)))
-    if fine > COARSE:
+    if fine > MEDIUM:
         right = armrest(fine)
         parts += [right, right * [-1, 1, 1]]
     if fine > 0.25:

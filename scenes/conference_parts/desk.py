@@ -38,7 +38,7 @@ def laptop(opening: float, fine: float) -> Array:
         base = boxes((-width / 2, 0, 0), (width / 2, thickness, depth),
                      ('bottom', 'back', 'left', 'right', 'front'))
         return joined(base, moved(rotated(lid, X, opening - PI / 2), 0, thickness, depth))
-    if fine < 0.15:
+    if fine < 0.2:
         lid = boxes((-width / 2, 0, 0), (width / 2, depth, 0.07), ('bottom', 'back'))
         base = boxes((-width / 2, 0.01, 0), (width / 2, thickness, depth), ('bottom',))
         return joined(base, moved(rotated(lid, X, opening - PI / 2), 0, thickness, depth))

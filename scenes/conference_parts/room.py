@@ -8,7 +8,7 @@ from model.portable import PI, Random
 from model.shapes import cylinder, quad, steps
 
 from . import lamps
-from .basics import COARSE, bar, bent, boxes
+from .basics import COARSE, MEDIUM, bar, bent, boxes
 
 Array = np.ndarray
 HALF_LENGTH, HALF_WIDTH, HEIGHT = 50.0, 35.0, 32.0
@@ -134,7 +134,9 @@ def door(fine: float) -> Array:
 def room(fine: float) -> Array:
     parts = [shell(), lamp_fittings(fine), door(fine)]
     if fine > COARSE:
-        parts += [planks(), skirting()]
+        parts.append(skirting())
+    if fine > MEDIUM:
+        parts.append(planks())
     return joined(parts)
 
 

@@ -10,7 +10,7 @@ from model.meshes import X, joined, moved
 from model.portable import Random, cos, sin
 from model.shapes import rounded_box, steps, surface
 
-from .basics import COARSE, bar, bent, boxes
+from .basics import COARSE, MEDIUM, bar, bent, boxes
 from .room import WINDOW_HALF_WIDTH, WINDOW_HIGH, WINDOW_LOW
 
 Array = np.ndarray
@@ -106,6 +106,8 @@ def cords(bottom: float, fine: float) -> Array:
 def radiator(fine: float) -> Array:
     """A row of elements, each of two columns that join at top and bottom, on two pipes."""
     a, low, high = RADIATOR_LENGTH / 2, RADIATOR_LOW, RADIATOR_HIGH
+    if fine < MEDIUM:
+        return boxes((-a, low, 0), (a, high, 1.2), ('bottom', 'back'))
     count = steps(34 * min(1, fine), 3)
     pitch = RADIATOR_LENGTH / count
     corners = [(0, low, 0.75), (0, low, 1.25), (0, high, 1.25), (0, high, 0.35),
@@ -113,8 +115,6 @@ def radiator(fine: float) -> Array:
     element = bar(bent(corners, 0.25, steps(5 * fine, 1)), min(0.16, pitch * 0.4),
                   steps(9 * fine, 3))
     elements = [moved(element, -a + (i + 0.5) * pitch) for i in range(count)]
-    if fine < COARSE:
-        return boxes((-a, low, 0), (a, high, 1.2), ('bottom', 'back'))
     pipes = [bar(np.array([(-a, y, 0.8), (a, y, 0.8)]), 0.12, steps(9 * fine, 3))
              for y in (low + 0.05, high - 0.05)]
     return joined(elements, pipes, valve(fine))
