@@ -22,7 +22,7 @@ SEATS_X = np.arange(10) * 6.1 - 27.45
 SEAT_DISTANCE = 2.9  # from the edge of the table to the middle of a chair
 STRAY_CHAIRS = [(-38.0, 25.5, 2.6), (20.5, -29.0, 0.25)]  # x, z, angle
 BLINDS = [(9.3, 0.72), (13.5, 0.62), (9.3, 0.8), (9.3, 0.68)]  # lowest point, tilt of each
-LAMP_EXITANCE, SKY_EXITANCE = 6.5, 1.5
+LAMP_EXITANCE, SKY_EXITANCE = 4.0, 1.3
 
 
 def seats() -> Array:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Lamps in the ceiling: a luminous panel in a housing, above a louvre of crossing blades.
+"""Lamps: luminous panels in the plane of the ceiling, and below each a louvre of crossing blades.
 
-The panel keeps its distance from all that it shines on, or paths that end there would be fireflies.
+Nothing stands near a panel in front of it, or paths that end there would be fireflies.
 """
 
 import numpy as np
@@ -9,43 +9,40 @@ import numpy as np
 from model.meshes import joined, moved
 from model.shapes import quad, steps, surface
 
-from .basics import COARSE, boxes
+from .basics import COARSE, bar, boxes
 
 Array = np.ndarray
-HALF_LENGTH, HALF_WIDTH = 11, 6
+HALF_LENGTH, HALF_WIDTH = 11.0, 6.0
 BLADE_HEIGHT, BLADE_GAP = 0.4, 1.5
 BLADE_WIDTH = 0.03, 0.07  # below and above; parabolic in between
-PANEL_HEIGHT, HOUSING_HEIGHT = 3.4, 6.5  # above the ceiling
-HOUSING_MARGIN = 3.0
-RIM = 0.22
+DROP = 2.2  # of the lower edges below the ceiling
+RIM = 0.12
+WIRE = 0.03
 
 
 def panel(x: float, ceiling: float, z: float) -> Array:
-    """The light, of the size of the opening."""
-    a, b, y = HALF_LENGTH, HALF_WIDTH, ceiling + PANEL_HEIGHT
-    return quad((x - a, y, z - b), (x + a, y, z - b), (x + a, y, z + b), (x - a, y, z + b))
-
-
-def housing() -> Array:
-    """It sits on the ceiling, wider than the opening."""
-    a, b = HALF_LENGTH + HOUSING_MARGIN, HALF_WIDTH + HOUSING_MARGIN
-    return boxes((-a, 0, -b), (a, HOUSING_HEIGHT, b), ('bottom',))
-
-
-def collar() -> Array:
-    """The sides of the opening, as high as the blades."""
+    """The light; it fits the hole of the ceiling."""
     a, b = HALF_LENGTH, HALF_WIDTH
-    return boxes((-a, 0, -b), (a, BLADE_HEIGHT, b), ('bottom', 'top'))
+    return quad((x - a, ceiling, z - b), (x + a, ceiling, z - b), (x + a, ceiling, z + b),
+                (x - a, ceiling, z + b))
 
 
 def rim() -> Array:
-    """A narrow frame below the ceiling."""
-    a, b = HALF_LENGTH, HALF_WIDTH
-    long_sides = boxes([(-a - RIM, -0.08, -b - RIM), (-a - RIM, -0.08, b)],
-                       [(a + RIM, 0, -b), (a + RIM, 0, b + RIM)], ('top',))
-    short_sides = boxes([(-a - RIM, -0.08, -b), (a, -0.08, -b)],
-                        [(-a, 0, b), (a + RIM, 0, b)], ('top', 'front', 'back'))
+    """The frame that holds the blades."""
+    a, b, top = HALF_LENGTH, HALF_WIDTH, BLADE_HEIGHT + 0.04
+    long_sides = boxes([(-a - RIM, 0, -b - RIM), (-a - RIM, 0, b)],
+                       [(a + RIM, top, -b), (a + RIM, top, b + RIM)])
+    short_sides = boxes([(-a - RIM, 0, -b), (a, 0, -b)], [(-a, top, b), (a + RIM, top, b)],
+                        ('front', 'back'))
     return joined(long_sides, short_sides)
+
+
+def wires(fine: float) -> Array:
+    """From the ceiling to the long sides of the rim."""
+    return joined([bar(np.array([(x, BLADE_HEIGHT, z), (x, DROP + 0.05, z)]), WIRE,
+                       steps(7 * fine, 3))
+                   for x in (-0.7 * HALF_LENGTH, 0.7 * HALF_LENGTH)
+                   for z in (-HALF_WIDTH - RIM / 2, HALF_WIDTH + RIM / 2)])
 
 
 def blade_section(fine: float) -> Array:
@@ -82,5 +79,8 @@ def louvre(fine: float) -> Array:
 
 
 def lamp(fine: float) -> Array:
-    """Below the panel; the origin is in the plane of the ceiling."""
-    return joined(housing(), collar(), louvre(fine), rim() if fine > COARSE else [])
+    """What hangs below the panel; the origin is in the plane of the ceiling."""
+    parts = [louvre(fine)]
+    if fine > COARSE:
+        parts += [rim(), wires(fine)]
+    return moved(joined(parts), 0, -DROP, 0)

@@ -35,7 +35,7 @@ def intervals(holes: list[tuple[float, float]], end: float) -> list[tuple[float,
 
 
 def ceiling() -> Array:
-    """Cut into strips around the recesses of the lamps."""
+    """Cut into strips around the panels of the lamps."""
     def rectangle(x: tuple[float, float], z: tuple[float, float]) -> Array:
         return quad((x[0], HEIGHT, z[0]), (x[1], HEIGHT, z[0]), (x[1], HEIGHT, z[1]),
                     (x[0], HEIGHT, z[1]))
