@@ -8,9 +8,9 @@ import sys
 from pathlib import Path
 
 KERNELS = ['simple-bvh', 'funky-kd']
-SCENES = ['cornell']
-SIZE = '640x480'
-PASSES = 16
+SCENES = ['cornell', 'conference', 'atrium', 'statue', 'forest', 'hairball', 'stadium']
+SIZE = '320x240'
+PASSES = 4
 
 ROOT = Path(__file__).resolve().parent.parent
 RESULTS = ROOT / 'bench' / 'results'

@@ -20,7 +20,8 @@ AVERAGE_INTENSITY = 0.27767052360860783
 CAMERA = REPOSITORY / 'scenes' / 'cornell.camera'
 SCENE = REPOSITORY / 'scenes' / 'cornell.scene'
 OPTIONS = ['--camera', CAMERA, '--size', '80x60', '--passes', '16', '--seed', '1']
-KERNELS = sorted(path.name.removeprefix('bwfirt-') for path in BUILD.glob('bwfirt-*'))
+KERNELS = [path.name for path in sorted((REPOSITORY / 'src' / 'kernel').glob('*/'))
+           if (BUILD / f'bwfirt-{path.name}').exists()]  # one without its library is not built
 
 
 @pytest.mark.parametrize('program', KERNELS, indirect=True)
