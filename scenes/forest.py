@@ -1,0 +1,75 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
+"""A path through a wood of oaks, beeches, birches and spruces, with undergrowth.
+
+One unit is half a metre. Foliage gets the triangles that all else leaves of the level of detail.
+"""
+
+import numpy as np
+
+from forest_parts import land, planting, sky, trees, undergrowth
+from forest_parts.planting import Nursery, Plant
+from model import vectors
+from model.generator import Model, run
+from model.meshes import joined, repeated
+from model.portable import PI, Random, power
+
+Array = np.ndarray
+
+STANDARD = 3.0e6  # triangles
+SKY, SUN = 1.0, 280.0  # radiant exitance, the sky's at the zenith
+HAZE = 0.45
+REFLECTANCE = 0.6
+
+
+def planted(mesh: Array, plant: Plant) -> Array:
+    return vectors.transformed(mesh, plant.matrix()) + plant.position()
+
+
+def fineness(plant: Plant, detail: float) -> float:
+    """Of the wood: 1 for a tree near the eye in the standard scene."""
+    return detail**0.5 * 36 / (plant.from_eye() + 10) * (1.0 if plant.in_view() else 0.3)
+
+
+def wood(plants: list[Plant], nursery: Nursery, detail: float) -> Array:
+    return joined([planted(trees.wood(nursery.individual(plant), fineness(plant, detail), i),
+                           plant) for i, plant in enumerate(plants)])
+
+
+def shares(plants: list[Plant]) -> Array:
+    """Which part of all leaf triangles each tree gets: more where the eye is near."""
+    weight = np.array([plant.species.foliage.area * plant.scale**2 for plant in plants])
+    distance = np.array([plant.from_eye() for plant in plants])
+    seen = np.array([1.0 if plant.in_view() else 0.12 for plant in plants])
+    weight = weight * seen / power(distance + 10, 1.3)
+    return weight / np.cumsum(weight)[-1]
+
+
+def foliage(plants: list[Plant], nursery: Nursery, triangles: float) -> Array:
+    meshes = []
+    for i, (plant, share) in enumerate(zip(plants, shares(plants).tolist())):
+        count, level = trees.leaf_count(plant.species, share * triangles)
+        meshes.append(planted(trees.foliage(nursery.individual(plant), count, level, 7000 + i),
+                              plant))
+    return joined(meshes)
+
+
+def build(detail: float) -> Model:
+    budget = STANDARD * detail
+    lights = [(sky.zenith(), SKY), (sky.haze(), HAZE), (sky.sun(), SUN)]
+    wooded = planting.trees()
+    shrubs = planting.shrubs(wooded)
+    some = min(1.0, 1.6 * detail**0.17)
+    plants = wooded[:int(some * len(wooded))] + shrubs[:int(some * some * len(shrubs))]
+    nursery = Nursery()
+    fixed = joined(land.ground(0.035 * budget), land.stones(detail),
+                   undergrowth.fallen_leaves(0.05 * budget), undergrowth.grass(0.08 * budget, detail),
+                   undergrowth.ferns(0.15 * budget),
+                   wood(plants, nursery, detail))
+    spent = len(fixed) + len(joined([mesh for mesh, _ in lights]))
+    rest = max(0.25 * budget, budget - spent)
+    return Model(joined(fixed, foliage(plants, nursery, rest)), lights, REFLECTANCE)
+
+
+if __name__ == '__main__':
+    run(__doc__, build)
