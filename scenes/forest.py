@@ -17,9 +17,9 @@ from model.portable import PI, Random, power
 Array = np.ndarray
 
 STANDARD = 3.0e6  # triangles
-SKY, SUN = 1.0, 280.0  # radiant exitance, the sky's at the zenith
-HAZE = 0.45
-REFLECTANCE = 0.6
+SKY, SUN = 1.0, 700.0  # radiant exitance, the sky's at the zenith
+HAZE = 0.6
+REFLECTANCE = 0.55
 
 
 def planted(mesh: Array, plant: Plant) -> Array:
@@ -63,8 +63,8 @@ def build(detail: float) -> Model:
     plants = wooded[:int(some * len(wooded))] + shrubs[:int(some * some * len(shrubs))]
     nursery = Nursery()
     fixed = joined(land.ground(0.035 * budget), land.stones(detail),
-                   undergrowth.fallen_leaves(0.05 * budget), undergrowth.grass(0.08 * budget, detail),
-                   undergrowth.ferns(0.15 * budget),
+                   undergrowth.fallen_leaves(0.05 * budget), undergrowth.grass(0.05 * budget, detail),
+                   undergrowth.ferns(0.2 * budget),
                    wood(plants, nursery, detail))
     spent = len(fixed) + len(joined([mesh for mesh, _ in lights]))
     rest = max(0.25 * budget, budget - spent)

@@ -17,10 +17,11 @@ Array = np.ndarray
 
 VARIANTS = 4
 CLEARING = (2.0, 8.0, 16.0)  # x, z, radius
+SUNBEAM = (-34.0, -3.0, 19.0)  # least x, least and greatest z: where no tall trees stand
 EDGE = 70.0
 COMPOSED = [  # species, variant, x, z, scale: those that make the picture
     (OAK, 0, -8.5, 27.0, 1.0), (BIRCH, 1, 12.5, 24.0, 1.0), (BIRCH, 2, 14.5, 21.0, 0.85),
-    (SPRUCE, 0, 19.0, 6.0, 0.9), (BEECH, 0, -13.0, 12.0, 1.0), (BIRCH, 0, -6.5, -3.0, 0.9),
+    (SPRUCE, 0, 19.0, 6.0, 0.9), (BEECH, 0, -11.0, -7.0, 1.0), (BIRCH, 0, -4.5, -12.0, 0.9),
     (SPRUCELING, 0, 9.5, 14.5, 0.75), (SPRUCELING, 1, -11.0, 19.5, 0.55),
     (HAZEL, 0, 15.0, 29.0, 0.9), (HAZEL, 1, -15.0, 24.0, 1.0), (SAPLING, 0, -5.5, 12.0, 0.8),
     (SAPLING, 1, 11.5, 2.0, 1.0)]
@@ -77,7 +78,8 @@ def _open(x: float, z: float, margin: float) -> bool:
     if float(land.beside_path(x, z)) < 1.6 + margin:
         return True
     dx, dz = x - CLEARING[0], z - CLEARING[1]
-    if dx * dx + dz * dz < (CLEARING[2] - 2 + margin)**2:
+    if dx * dx + dz * dz < (CLEARING[2] - 2 + margin)**2 or (
+            SUNBEAM[0] < x < 0 and SUNBEAM[1] < z + 0.18 * x < SUNBEAM[2]):
         return True
     return -5 < ahead < 26 and abs(x) < 5 + margin + 0.28 * max(0.0, ahead)
 
@@ -110,7 +112,7 @@ def shrubs(others: list[Plant]) -> list[Plant]:
     kinds = (HAZEL, SAPLING, HAZEL, SPRUCELING, SAPLING)
     for x, z, draw, size, variant in random.uniform(0, 1, (900, 5)).tolist():
         z, x = 34 - 96 * z, 62 * (2 * x - 1)
-        if x * x + z * z > 68**2 or _open(x, z, 1.0) or len(plants) == 90:
+        if x * x + z * z > 68**2 or _open(x, z, 1.0) or len(plants) == 60:
             continue
         species = kinds[int(draw * len(kinds))]
         if _room(plants, species, x, z) and all(

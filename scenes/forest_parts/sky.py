@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""The sky: a dome whose upper part is brighter, and the sun, which is one of its panes."""
+"""The sky: a half-dome behind the wood, a cap above it, and the sun.
+
+The rest is open: a closed dome would reflect so much sunlight that no shadow was left.
+"""
 
 import numpy as np
 
@@ -10,9 +13,10 @@ Array = np.ndarray
 
 RADIUS = 98.0
 SUN_AZIMUTH = (186.0, 194.0)  # degrees from +x towards -z
-SUN_ELEVATION = (44.0, 52.0)
-AZIMUTHS = [0, 30, 60, 90, 120, 150, *SUN_AZIMUTH, 215, 245, 275, 305, 335, 360]
-HORIZON, HAZE = -12.0, 27.0
+SUN_ELEVATION = (50.0, 58.0)
+AHEAD = [25, 45, 65, 90, 115, 135, 155]  # azimuths of the panes behind the wood
+ROUND = [*AHEAD, 185, 220, 265, 310, 345, 385]
+HORIZON, HAZE, CAP = -12.0, 27.0, 66.0  # elevations
 
 
 def _dome(azimuths: list[float], elevations: list[float]) -> Array:
@@ -25,16 +29,11 @@ def _dome(azimuths: list[float], elevations: list[float]) -> Array:
 
 
 def haze() -> Array:
-    return _dome(AZIMUTHS, [HORIZON, 8, HAZE])
+    return _dome(AHEAD, [HORIZON, 8, HAZE])
 
 
 def zenith() -> Array:
-    low, high = SUN_ELEVATION
-    sun = AZIMUTHS.index(SUN_AZIMUTH[0])
-    return np.concatenate([
-        _dome(AZIMUTHS, [HAZE, low]),
-        _dome(AZIMUTHS[:sun + 1], [low, high]), _dome(AZIMUTHS[sun + 1:], [low, high]),
-        _dome(AZIMUTHS, [high, 68, 90])])
+    return np.concatenate([_dome(AHEAD, [HAZE, 46, CAP]), _dome(ROUND, [CAP, 90])])
 
 
 def sun() -> Array:

@@ -86,16 +86,16 @@ def fern(fronds: int, pairs: int, pinnules: int, seed: int) -> Array:
 def ferns(triangles: float) -> Array:
     """In three belts about the eye, the nearest with leaflets of their own."""
     meshes = []
-    for belt, (near, far, count, share) in enumerate(((5, 17, 22, 0.5), (15, 34, 60, 0.3),
-                                                      (30, 62, 110, 0.2))):
+    for belt, (near, far, count, share) in enumerate(((4.5, 17, 34, 0.5), (15, 34, 80, 0.3),
+                                                      (30, 62, 130, 0.2))):
         x, z, _, draws = scattered(14 * count, near, far, 420 + belt, 0.9)
         groups = gradient_noise(np.stack([x / 9, 0 * x, z / 9], -1), 423)
-        kept = (land.beside_path(x, z) > 3.2) & (groups > -0.1 + 0.3 * draws[:, 0])
+        kept = (land.beside_path(x, z) > 2.9) & (groups > -0.25 + 0.3 * draws[:, 0])
         count = int(min(count, max(3, share * triangles / 60)))
         kept &= np.cumsum(kept) <= count
         each = share * triangles / count
         kinds = [fern(*_leaflets(each, kind), seed=3 * belt + kind) for kind in range(3)]
-        size = 0.75 + 0.55 * draws[kept, 1]
+        size = 0.75 + 0.6 * draws[kept, 1]
         matrices = vectors.rotation(UP, 2 * PI * draws[kept, 2]) * size[:, np.newaxis, np.newaxis]
         meshes.append(leaves.strewn(kinds, matrices, land.on_ground(x[kept], z[kept])))
     return joined(meshes)
@@ -147,7 +147,7 @@ def grass(triangles: float, detail: float) -> Array:
     tufts = gradient_noise(np.stack([x / 2.6, 0 * x, z / 2.6], -1), 411)
     meadow = gradient_noise(np.stack([x / 11, 0 * x, z / 11], -1) + 0.5, 412)
     beside = land.beside_path(x, z)
-    kept = (tufts + 0.9 * meadow + 0.25 * draws[:, 0] > 0.12) & (beside > 1.7 + 0.8 * draws[:, 1])
+    kept = (tufts + 0.9 * meadow + 0.25 * draws[:, 0] > 0.3) & (beside > 1.7 + 0.8 * draws[:, 1])
     kept &= np.cumsum(kept) <= count
     x, z, distance, draws = x[kept], z[kept], distance[kept], draws[kept]
     growth = min(8.0, np.sqrt(max(1.0, 60000 / max(1, count))))
