@@ -11,13 +11,14 @@ from forest_parts import land, planting, sky, trees, undergrowth
 from forest_parts.planting import Nursery, Plant
 from model import vectors
 from model.generator import Model, run
-from model.meshes import joined, repeated
-from model.portable import PI, Random, power
+from model.meshes import joined
+from model.portable import power
+from model.shapes import steps
 
 Array = np.ndarray
 
 STANDARD = 3.0e6  # triangles
-SKY, SUN = 1.0, 700.0  # radiant exitance, the sky's at the zenith
+SKY, SUN = 1.0, 850.0  # radiant exitance, the sky's at the zenith
 HAZE = 0.6
 REFLECTANCE = 0.55
 
@@ -54,6 +55,16 @@ def foliage(plants: list[Plant], nursery: Nursery, triangles: float) -> Array:
     return joined(meshes)
 
 
+def fallen_stem(detail: float) -> Array:
+    start, end = land.on_ground(land.LOG[:, 0], land.LOG[:, 1])
+    along = vectors.normalized(end - start)
+    across = vectors.normalized(vectors.cross(along, np.array([0, 1.0, 0])))
+    log = trees.fallen(float(vectors.length(end - start)), land.LOG_RADIUS,
+                       min(160, steps(70 * detail**0.5, 4)), min(400, steps(120 * detail**0.5, 4)))
+    return vectors.transformed(log, vectors.frame(along, vectors.cross(across, along), across)
+                               ) + start
+
+
 def build(detail: float) -> Model:
     budget = STANDARD * detail
     lights = [(sky.zenith(), SKY), (sky.haze(), HAZE), (sky.sun(), SUN)]
@@ -63,8 +74,9 @@ def build(detail: float) -> Model:
     plants = wooded[:int(some * len(wooded))] + shrubs[:int(some * some * len(shrubs))]
     nursery = Nursery()
     fixed = joined(land.ground(0.035 * budget), land.stones(detail),
-                   undergrowth.fallen_leaves(0.05 * budget), undergrowth.grass(0.05 * budget, detail),
-                   undergrowth.ferns(0.2 * budget),
+                   undergrowth.fallen_leaves(0.06 * budget), undergrowth.grass(0.05 * budget, detail),
+                   undergrowth.ferns(0.24 * budget), undergrowth.mushrooms(detail),
+                   fallen_stem(detail),
                    wood(plants, nursery, detail))
     spent = len(fixed) + len(joined([mesh for mesh, _ in lights]))
     rest = max(0.25 * budget, budget - spent)

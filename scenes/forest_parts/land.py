@@ -14,6 +14,8 @@ RADIUS = 76.0  # of the ground, about the origin
 EYE = np.array([0.0, 44.0])  # x and z of the camera that looks along the path
 PATH_WIDTH = 3.0
 STONE_SHAPES = 5
+LOG = np.array([[-9.0, 35.5], [0.6, 31.6]])  # x and z of the ends of a fallen stem
+LOG_RADIUS = 0.62
 
 
 def path_x(z: Array) -> Array:
@@ -40,6 +42,16 @@ def height(x: Array, z: Array) -> Array:
 
 def on_ground(x: Array, z: Array) -> Array:
     return np.stack(np.broadcast_arrays(x, height(x, z), z), axis=-1)
+
+
+def under_log(x: Array, z: Array) -> Array:
+    """Whether something would stand in the fallen stem."""
+    along = LOG[1] - LOG[0]
+    dx, dz = x - LOG[0, 0], z - LOG[0, 1]
+    squared = along[0] * along[0] + along[1] * along[1]
+    t = np.clip((dx * along[0] + dz * along[1]) / squared, 0, 1)
+    dx, dz = dx - t * along[0], dz - t * along[1]
+    return dx * dx + dz * dz < (1.6 * LOG_RADIUS)**2
 
 
 def ground(triangles: float) -> Array:

@@ -14,8 +14,8 @@ Array = np.ndarray
 RADIUS = 98.0
 SUN_AZIMUTH = (186.0, 194.0)  # degrees from +x towards -z
 SUN_ELEVATION = (50.0, 58.0)
-AHEAD = [25, 45, 65, 90, 115, 135, 155]  # azimuths of the panes behind the wood
-ROUND = [*AHEAD, 185, 220, 265, 310, 345, 385]
+AHEAD = [14, 40, 65, 90, 115, 140, 166]  # azimuths of the panes behind the wood
+ROUND = [*AHEAD, 195, 230, 270, 310, 345, 374]
 HORIZON, HAZE, CAP = -12.0, 27.0, 66.0  # elevations
 
 

@@ -143,13 +143,24 @@ def wood(tree: Individual, fineness: float, seed: int) -> Array:
     parts, species = [], tree.species
     first = tree.orders[0]
     if species.bark:
-        sides = min(160, steps(60 * fineness * np.sqrt(species.radius), 3))
-        rows = min(500, steps(70 * fineness * fineness * np.sqrt(species.height / 38), 1))
+        sides = min(160, steps(75 * fineness * np.sqrt(species.radius), 3))
+        rows = min(500, steps(100 * fineness * fineness * np.sqrt(species.height / 38), 1))
         parts.append(stem(first.paths[0], first.radii[0], species.bark, sides, rows, seed))
     for order, least, sides in ((1, 0.08, 8), (2, 0.22, 5), (3, 0.45, 3)):
         if order < len(tree.orders) and fineness >= least:
             parts.append(branches(tree.orders[order], fineness, sides))
     return joined(parts)
+
+
+def fallen(length: float, radius: float, sides: int, rows: int) -> Array:
+    """A log along +x that rests on the ground at y = 0, its ends broken off blunt."""
+    n = 41
+    radii = radius * (1 - 0.35 * np.arange(n) / n)
+    radii[0] = radii[-1] = 0.05 * radius
+    bend = 0.012 * length * sin(np.arange(n) / 9)
+    path = np.stack([bend, length * np.arange(n) / (n - 1), 0.7 * bend], axis=-1)
+    log = stem(path, radii, Bark(0.09, 2.6, 5.0, 0.0), sides, rows, 5)
+    return np.stack([log[..., 1], 0.72 * radius - log[..., 0], log[..., 2]], axis=-1)
 
 
 def branches(shoots: Shoots, fineness: float, sides: int) -> Array:

@@ -9,7 +9,7 @@ from model.noise import gradient_noise
 from model.portable import PI, Random, cos, power, sin
 from model.shapes import lathe, spline, tubes
 
-from . import land, leaves
+from . import land, leaves, trees
 from .branching import UP
 
 Array = np.ndarray
@@ -86,11 +86,11 @@ def fern(fronds: int, pairs: int, pinnules: int, seed: int) -> Array:
 def ferns(triangles: float) -> Array:
     """In three belts about the eye, the nearest with leaflets of their own."""
     meshes = []
-    for belt, (near, far, count, share) in enumerate(((4.5, 17, 34, 0.5), (15, 34, 80, 0.3),
-                                                      (30, 62, 130, 0.2))):
+    for belt, (near, far, count, share) in enumerate(((4.5, 16, 28, 0.62), (14, 34, 80, 0.24),
+                                                      (30, 62, 120, 0.14))):
         x, z, _, draws = scattered(14 * count, near, far, 420 + belt, 0.9)
         groups = gradient_noise(np.stack([x / 9, 0 * x, z / 9], -1), 423)
-        kept = (land.beside_path(x, z) > 2.9) & (groups > -0.25 + 0.3 * draws[:, 0])
+        kept = (land.beside_path(x, z) > 2.9) & ~land.under_log(x, z) & (groups > -0.25 + 0.3 * draws[:, 0])
         count = int(min(count, max(3, share * triangles / 60)))
         kept &= np.cumsum(kept) <= count
         each = share * triangles / count
@@ -123,17 +123,15 @@ def scattered(count: int, nearest: float, farthest: float, seed: int, towards: f
 
 
 def fallen_leaves(triangles: float) -> Array:
-    blades = ([leaves.simple_blade(0.5, 0.3, 0.5), leaves.simple_blade(0.45, 0.33, -0.4)]
-              if triangles < 60000 else
-              [leaves.blade([(0.45, 0.32)], 0.5, 0.4), leaves.blade([(0.5, 0.3)], -0.3, -0.3),
-               leaves.blade([(0.4, 0.28)], 0.2, -0.5)])
+    level = int(triangles > 2e4) + int(triangles > 1.2e5)
+    blades = trees.BROAD[level]
     count = int(triangles / len(blades[0]))
     x, z, distance, draws = scattered(count, 2.5, 60, 401, 1.9)
     turn = 2 * PI * draws[:, 0]
-    direction = np.stack([cos(turn), 0.5 * (draws[:, 1] - 0.5), sin(turn)], axis=-1)
-    upper = UP + 0.55 * (draws[:, 2:5] * 2 - 1)
-    growth = min(3.0, np.sqrt(max(1.0, 30000 / max(1, count))))
-    size = 0.24 * (0.6 + 0.7 * draws[:, 5]) * (1 + distance / 30) * growth
+    direction = np.stack([cos(turn), 0.3 * (draws[:, 1] - 0.5), sin(turn)], axis=-1)
+    upper = UP + 0.45 * (draws[:, 2:5] * 2 - 1)
+    growth = min(4.0, np.sqrt(max(1.0, 24000 / max(1, count))))
+    size = 0.19 * (0.6 + 0.7 * draws[:, 5]) * (1 + distance / 30) * growth
     lift = (0.03 + 0.06 * draws[:, 3])[:, np.newaxis] * UP
     return leaves.strewn(blades, leaves.frames(direction, upper, size, size),
                          land.on_ground(x, z) + lift)
@@ -148,6 +146,7 @@ def grass(triangles: float, detail: float) -> Array:
     meadow = gradient_noise(np.stack([x / 11, 0 * x, z / 11], -1) + 0.5, 412)
     beside = land.beside_path(x, z)
     kept = (tufts + 0.9 * meadow + 0.25 * draws[:, 0] > 0.3) & (beside > 1.7 + 0.8 * draws[:, 1])
+    kept &= ~land.under_log(x, z)
     kept &= np.cumsum(kept) <= count
     x, z, distance, draws = x[kept], z[kept], distance[kept], draws[kept]
     growth = min(8.0, np.sqrt(max(1.0, 60000 / max(1, count))))
@@ -176,10 +175,16 @@ def mushroom(segments: int) -> Array:
     return joined(lathe(cap, segments), lathe(foot, max(4, segments // 2)))
 
 
-def mushrooms(x: Array, z: Array, size: Array, segments: int, seed: int) -> Array:
-    random = Random(seed)
-    axis = vectors.normalized(np.stack([random.normal(len(x)), np.zeros(len(x)),
-                                        random.normal(len(x))], axis=-1))
-    lean = vectors.rotation(axis, random.uniform(-0.3, 0.3, len(x)))
+def mushrooms(detail: float) -> Array:
+    """Groups of them: x, z, radius of the group, number."""
+    groups = [(1.1, 37.2, 0.5, 9), (-2.2, 33.4, 0.6, 8), (3.2, 26.6, 0.5, 6), (0.4, 32.6, 0.3, 5)]
+    random = Random(431)
+    x, z, size = (np.concatenate(values) for values in zip(*(
+        (x + spread * random.normal(count), z + spread * random.normal(count),
+         random.uniform(0.16, 0.42, count)) for x, z, spread, count in groups)))
+    angle = random.uniform(0, 2 * PI, len(x))
+    axis = np.stack([cos(angle), np.zeros(len(x)), sin(angle)], axis=-1)
+    lean = vectors.rotation(axis, random.uniform(0, 0.3, len(x)))
+    segments = int(np.clip(28 * detail**0.4, 4, 48))
     return repeated(mushroom(segments), lean * size[:, np.newaxis, np.newaxis],
                     land.on_ground(x, z))
