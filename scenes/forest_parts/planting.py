@@ -17,7 +17,6 @@ Array = np.ndarray
 
 VARIANTS = 4
 CLEARING = (2.0, 8.0, 16.0)  # x, z, radius
-SUNBEAM = (-34.0, -3.0, 19.0)  # least x, least and greatest z: where no tall trees stand
 EDGE = 70.0
 COMPOSED = [  # species, variant, x, z, scale: those that make the picture
     (OAK, 0, -8.5, 27.0, 1.0), (BIRCH, 1, 12.5, 24.0, 1.0), (BIRCH, 2, 14.5, 21.0, 0.85),
@@ -78,8 +77,7 @@ def _open(x: float, z: float, margin: float) -> bool:
     if float(land.beside_path(x, z)) < 1.6 + margin:
         return True
     dx, dz = x - CLEARING[0], z - CLEARING[1]
-    if dx * dx + dz * dz < (CLEARING[2] - 2 + margin)**2 or (
-            SUNBEAM[0] < x < 0 and SUNBEAM[1] < z + 0.18 * x < SUNBEAM[2]):
+    if dx * dx + dz * dz < (CLEARING[2] - 2 + margin)**2:
         return True
     return -5 < ahead < 26 and abs(x) < 5 + margin + 0.28 * max(0.0, ahead)
 

@@ -12,9 +12,9 @@ from model.shapes import surface
 Array = np.ndarray
 
 RADIUS = 98.0
-SUN_AZIMUTH = (186.0, 194.0)  # degrees from +x towards -z
+SUN_AZIMUTH = (106.0, 114.0)  # degrees from +x towards -z
 SUN_ELEVATION = (50.0, 58.0)
-AHEAD = [14, 40, 65, 90, 115, 140, 166]  # azimuths of the panes behind the wood
+AHEAD = [14, 36, 60, 84, *SUN_AZIMUTH, 140, 166]  # azimuths of the panes behind the wood
 ROUND = [*AHEAD, 195, 230, 270, 310, 345, 374]
 HORIZON, HAZE, CAP = -12.0, 27.0, 66.0  # elevations
 
@@ -33,7 +33,12 @@ def haze() -> Array:
 
 
 def zenith() -> Array:
-    return np.concatenate([_dome(AHEAD, [HAZE, 46, CAP]), _dome(ROUND, [CAP, 90])])
+    """With a hole where the sun is."""
+    low, high = SUN_ELEVATION
+    left = AHEAD.index(SUN_AZIMUTH[1])
+    return np.concatenate([
+        _dome(AHEAD, [HAZE, low]), _dome(AHEAD[:left], [low, high]),
+        _dome(AHEAD[left:], [low, high]), _dome(AHEAD, [high, CAP]), _dome(ROUND, [CAP, 90])])
 
 
 def sun() -> Array:

@@ -177,7 +177,7 @@ def mushroom(segments: int) -> Array:
 
 def mushrooms(detail: float) -> Array:
     """Groups of them: x, z, radius of the group, number."""
-    groups = [(1.1, 37.2, 0.5, 9), (-2.2, 33.4, 0.6, 8), (3.2, 26.6, 0.5, 6), (0.4, 32.6, 0.3, 5)]
+    groups = [(0.9, 35.7, 0.45, 9), (0.2, 34.6, 0.4, 7), (3.2, 26.6, 0.5, 6), (1.5, 32.0, 0.3, 5)]
     random = Random(431)
     x, z, size = (np.concatenate(values) for values in zip(*(
         (x + spread * random.normal(count), z + spread * random.normal(count),
