@@ -16,7 +16,7 @@ from .trees import (BEECH, BIRCH, HAZEL, OAK, SAPLING, SPRUCE, SPRUCELING, Indiv
 Array = np.ndarray
 
 VARIANTS = 4
-CLEARING = (2.0, 8.0, 16.0)  # x, z, radius
+CLEARING = (4.0, 12.0, 16.0)  # x, z, radius
 EDGE = 70.0
 COMPOSED = [  # species, variant, x, z, scale: those that make the picture
     (OAK, 0, -8.5, 27.0, 1.0), (BIRCH, 1, 12.5, 24.0, 1.0), (BIRCH, 2, 14.5, 21.0, 0.85),

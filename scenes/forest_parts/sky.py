@@ -12,11 +12,11 @@ from model.shapes import surface
 Array = np.ndarray
 
 RADIUS = 98.0
-SUN_AZIMUTH = (106.0, 114.0)  # degrees from +x towards -z
-SUN_ELEVATION = (50.0, 58.0)
-AHEAD = [14, 36, 60, 84, *SUN_AZIMUTH, 140, 166]  # azimuths of the panes behind the wood
+SUN_AZIMUTH = (60.0, 76.0)  # degrees from +x towards -z
+SUN_ELEVATION = (60.0, 69.0)
+AHEAD = [14, 37, *SUN_AZIMUTH, 96, 120, 144, 166]  # azimuths of the panes behind the wood
 ROUND = [*AHEAD, 195, 230, 270, 310, 345, 374]
-HORIZON, HAZE, CAP = -12.0, 27.0, 66.0  # elevations
+HORIZON, HAZE, CAP = -12.0, 27.0, 76.0  # elevations
 
 
 def _dome(azimuths: list[float], elevations: list[float]) -> Array:
@@ -37,7 +37,7 @@ def zenith() -> Array:
     low, high = SUN_ELEVATION
     left = AHEAD.index(SUN_AZIMUTH[1])
     return np.concatenate([
-        _dome(AHEAD, [HAZE, low]), _dome(AHEAD[:left], [low, high]),
+        _dome(AHEAD, [HAZE, 43, low]), _dome(AHEAD[:left], [low, high]),
         _dome(AHEAD[left:], [low, high]), _dome(AHEAD, [high, CAP]), _dome(ROUND, [CAP, 90])])
 
 
