@@ -84,4 +84,4 @@ def build(detail: float) -> Model:
 
 
 if __name__ == '__main__':
-    run(__doc__, build)
+    run(__doc__, build, standard=STANDARD)

@@ -33,11 +33,13 @@ class Model:
         return sum(len(mesh) for mesh in self.meshes())
 
 
-def run(description: str, build: Callable[[float], Model], scalable: bool = True) -> None:
+def run(description: str, build: Callable[[float], Model], scalable: bool = True,
+        standard: float = 1e6) -> None:
     """Reads the command line and writes BASE.ra2 and BASE.scene.
 
     `build` makes the scene for a level of detail: 1 is the standard scene, and another level has
-    about that many times its triangles.
+    about that many times its triangles. `standard` says roughly how many triangles that scene has,
+    so that the search for a scale begins near its end.
     """
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument('base', type=Path, metavar='BASE', help='writes BASE.ra2 and BASE.scene')
@@ -47,7 +49,7 @@ def run(description: str, build: Callable[[float], Model], scalable: bool = True
                                  f'{SCALES[0]:.0e} to {SCALES[1]:.0e}')
     arguments = parser.parse_args()
     scale = getattr(arguments, 'scale', None)
-    model = build(1.0) if scale is None else _of_scale(build, scale)
+    model = build(1.0) if scale is None else _of_scale(build, scale, standard)
     try:
         _write(arguments.base, model)
     except OSError as error:
@@ -64,12 +66,12 @@ def _scale(text: str) -> float:
 _scale.__name__ = 'number of triangles'  # what argparse calls it in its messages
 
 
-def _of_scale(build: Callable[[float], Model], triangles: float) -> Model:
+def _of_scale(build: Callable[[float], Model], triangles: float, standard: float) -> Model:
     """The model that comes closest within a few corrections of the level of detail."""
     def error(model: Model) -> float:
         return max(len(model) / triangles, triangles / len(model))
 
-    detail, best = triangles / 1e6, None
+    detail, best = triangles / standard, None
     for _ in range(MOST_TRIALS):
         model = build(detail)
         if best is None or error(model) < error(best):
