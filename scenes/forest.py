@@ -7,7 +7,7 @@ One unit is half a metre. Foliage gets the triangles that all else leaves of the
 
 import numpy as np
 
-from forest_parts import land, planting, sky, trees, undergrowth
+from forest_parts import ferns, land, planting, sky, trees, undergrowth
 from forest_parts.planting import Nursery, Plant
 from model import vectors
 from model.generator import Model, run
@@ -75,7 +75,7 @@ def build(detail: float) -> Model:
     nursery = Nursery()
     fixed = joined(land.ground(0.035 * budget), land.stones(detail),
                    undergrowth.fallen_leaves(0.06 * budget), undergrowth.grass(0.05 * budget, detail),
-                   undergrowth.ferns(0.24 * budget), undergrowth.mushrooms(detail),
+                   ferns.ferns(0.24 * budget), undergrowth.mushrooms(detail),
                    fallen_stem(detail),
                    wood(plants, nursery, detail))
     spent = len(fixed) + len(joined([mesh for mesh, _ in lights]))

@@ -84,7 +84,7 @@ def stones(detail: float) -> Array:
     meshes = []
     for largest, count, spread, shift in ((1.7, 16, 17.0, 4.0), (0.45, 90, 3.0, 1.2),
                                           (0.14, 500, 1.6, 0.0)):
-        count = int(count * min(1, 3 * detail**0.5) + 0.5)
+        count = int(count * min(1, 60 * detail) + 0.5)
         draws = random.uniform(0, 1, (count, 6))
         ahead = 3.5 + 75 * draws[:, 0] * draws[:, 0]
         z = EYE[1] - ahead
