@@ -29,7 +29,7 @@ def planted(mesh: Array, plant: Plant) -> Array:
 
 def fineness(plant: Plant, detail: float) -> float:
     """Of the wood: 1 for a tree near the eye in the standard scene."""
-    return detail**0.5 * 36 / (plant.from_eye() + 10) * (1.0 if plant.in_view() else 0.3)
+    return np.sqrt(detail) * 36 / (plant.from_eye() + 10) * (1.0 if plant.in_view() else 0.3)
 
 
 def wood(plants: list[Plant], nursery: Nursery, detail: float) -> Array:
@@ -60,27 +60,35 @@ def fallen_stem(detail: float) -> Array:
     along = vectors.normalized(end - start)
     across = vectors.normalized(vectors.cross(along, np.array([0, 1.0, 0])))
     log = trees.fallen(float(vectors.length(end - start)), land.LOG_RADIUS,
-                       min(160, steps(70 * detail**0.5, 4)), min(400, steps(120 * detail**0.5, 4)))
+                       min(160, steps(70 * np.sqrt(detail), 4)),
+                       min(400, steps(120 * np.sqrt(detail), 4)))
     return vectors.transformed(log, vectors.frame(along, vectors.cross(across, along), across)
                                ) + start
+
+
+def floor(budget: float, detail: float) -> Array:
+    """The ground, and what lies and grows on it."""
+    return joined(land.ground(0.035 * budget), land.stones(detail), fallen_stem(detail),
+                  undergrowth.fallen_leaves(0.06 * budget), undergrowth.mushrooms(detail),
+                  undergrowth.grass(0.05 * budget, detail), ferns.ferns(0.24 * budget))
+
+
+def plants_of(detail: float) -> list[Plant]:
+    """A small scale makes do with fewer trees, and still fewer bushes."""
+    some = min(1.0, 1.6 * float(power(detail, 0.17)))
+    wooded = planting.trees()
+    shrubs = planting.shrubs(wooded)
+    return wooded[:int(some * len(wooded))] + shrubs[:int(some * some * len(shrubs))]
 
 
 def build(detail: float) -> Model:
     budget = STANDARD * detail
     lights = [(sky.zenith(), SKY), (sky.haze(), HAZE), (sky.sun(), SUN)]
-    wooded = planting.trees()
-    shrubs = planting.shrubs(wooded)
-    some = min(1.0, 1.6 * detail**0.17)
-    plants = wooded[:int(some * len(wooded))] + shrubs[:int(some * some * len(shrubs))]
-    nursery = Nursery()
-    fixed = joined(land.ground(0.035 * budget), land.stones(detail),
-                   undergrowth.fallen_leaves(0.06 * budget), undergrowth.grass(0.05 * budget, detail),
-                   ferns.ferns(0.24 * budget), undergrowth.mushrooms(detail),
-                   fallen_stem(detail),
-                   wood(plants, nursery, detail))
-    spent = len(fixed) + len(joined([mesh for mesh, _ in lights]))
-    rest = max(0.25 * budget, budget - spent)
-    return Model(joined(fixed, foliage(plants, nursery, rest)), lights, REFLECTANCE)
+    plants, nursery = plants_of(detail), Nursery()
+    solid = joined(floor(budget, detail), wood(plants, nursery, detail))
+    spent = len(solid) + sum(len(mesh) for mesh, _ in lights)
+    crowns = foliage(plants, nursery, max(0.25 * budget, budget - spent))
+    return Model(joined(solid, crowns), lights, REFLECTANCE)
 
 
 if __name__ == '__main__':

@@ -44,7 +44,8 @@ class Shoots:
         rest = (t * (last + 1) - span)[..., np.newaxis]
         own = np.arange(len(t))[:, np.newaxis]
         start, end = self.paths[own, span], self.paths[own, span + 1]
-        radius = self.radii[own, span] * (1 - rest[..., 0]) + self.radii[own, span + 1] * rest[..., 0]
+        share = rest[..., 0]
+        radius = self.radii[own, span] * (1 - share) + self.radii[own, span + 1] * share
         return start + rest * (end - start), vectors.normalized(end - start), radius
 
     def lengths(self) -> Array:

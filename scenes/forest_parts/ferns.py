@@ -60,7 +60,7 @@ def pinnae(base: Array, direction: Array, upper: Array, reach: Array, width: flo
     droop = 0.15 * at * at
     place = (base[:, np.newaxis] + reach[:, np.newaxis, np.newaxis] * (
         at[:, np.newaxis] * direction[:, np.newaxis] - droop[:, np.newaxis] * UP)).reshape(-1, 3)
-    size = (np.broadcast_to(0.55 * width * (1.05 - at), (len(reach), pinnules))).reshape(-1)
+    size = np.tile(0.55 * width * (1.05 - at), len(reach))
     broad = np.repeat(reach, pinnules) / pinnules * 1.1
     blade = [leaves.simple_blade(0.4, 0.5, 0.3)]
     out = np.repeat(direction, pinnules, axis=0)
@@ -95,7 +95,8 @@ def ferns(triangles: float) -> Array:
     for belt, (near, far, count, share) in enumerate(BELTS):
         x, z, _, draws = scattered(14 * count, near, far, 420 + belt, 0.9)
         groups = gradient_noise(np.stack([x / 9, 0 * x, z / 9], -1), 423)
-        kept = (land.beside_path(x, z) > 2.9) & ~land.under_log(x, z) & (groups > -0.25 + 0.3 * draws[:, 0])
+        kept = (groups > -0.25 + 0.3 * draws[:, 0]) & (land.beside_path(x, z) > 2.9)
+        kept &= ~land.under_log(x, z)
         count = int(min(count, max(1, share * triangles / LEAST_FERN)))
         kept &= np.cumsum(kept) <= count
         each = share * triangles / count
@@ -107,7 +108,7 @@ def ferns(triangles: float) -> Array:
 
 
 def _leaflets(triangles: float, kind: int) -> tuple[int, int, int]:
-    """Fronds, pairs of leaflets, and their own pairs of leaflets, of a fern of so many triangles."""
+    """Fronds of a fern of so many triangles, pairs of leaflets of each, pairs of these."""
     fronds = int(min(8 + kind, max(LEAST_FERN / 4, triangles / 72)))
     of_frond = triangles / fronds - 24
     if of_frond < 3 * 8:

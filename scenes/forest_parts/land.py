@@ -73,7 +73,8 @@ def ground(triangles: float) -> Array:
 def stone(segments: int, seed: int) -> Array:
     """About a unit large, flattened, with broken edges."""
     mesh = sphere(1, segments)
-    bumps = fractal_noise(mesh * 0.8 + 7.3 * seed, 2, seed) + 0.12 * fractal_noise(mesh * 4, 3, seed)
+    bumps = fractal_noise(mesh * 0.8 + 7.3 * seed, 2, seed)
+    bumps += 0.12 * fractal_noise(mesh * 4, 3, seed)
     facets = 0.25 * np.abs(fractal_noise(mesh * 1.3 - 3.1 * seed, 1, seed + 50))
     return mesh * (1 + 0.45 * bumps - facets)[..., np.newaxis] * np.array([1.0, 0.62, 0.85])
 
@@ -92,7 +93,7 @@ def stones(detail: float) -> Array:
         x = path_x(z) + side
         size = largest * (0.35 + 0.65 * draws[:, 3] * draws[:, 3])
         turn = vectors.rotation(np.array([0, 1.0, 0]), 2 * PI * draws[:, 4])
-        fineness = (detail**0.5) * 26 * np.sqrt(largest)
+        fineness = 26 * np.sqrt(detail * largest)
         shapes = [stone(int(min(64, max(4, fineness))), seed) for seed in range(STONE_SHAPES)]
         position = on_ground(x, z) + np.array([0, 0.12, 0]) * size[:, np.newaxis]
         for i in range(count):

@@ -10,8 +10,8 @@ from model.noise import gradient_noise
 from model.portable import PI, Random
 
 from . import land
-from .trees import (BEECH, BIRCH, HAZEL, OAK, SAPLING, SPRUCE, SPRUCELING, Individual, Species,
-                    grown)
+from .species import BEECH, BIRCH, HAZEL, OAK, SAPLING, SPRUCE, SPRUCELING, Species
+from .trees import Individual, grown
 
 Array = np.ndarray
 

@@ -6,19 +6,20 @@ import numpy as np
 from model import vectors
 from model.meshes import joined, repeated
 from model.noise import gradient_noise
-from model.portable import PI, Random, cos, sin
+from model.portable import PI, Random, cos, power, sin
 from model.shapes import lathe, spline
 
-from . import land, leaves, trees
+from . import land, leaves
 from .branching import UP
 from .scatter import scattered
+from .species import BROAD
 
 Array = np.ndarray
 
 
 def fallen_leaves(triangles: float) -> Array:
     level = int(triangles > 2e4) + int(triangles > 1.2e5)
-    blades = trees.BROAD[level]
+    blades = BROAD[level]
     count = int(triangles / len(blades[0]))
     x, z, distance, draws = scattered(count, 2.5, 60, 401, 1.9)
     turn = 2 * PI * draws[:, 0]
@@ -33,7 +34,7 @@ def fallen_leaves(triangles: float) -> Array:
 
 def grass(triangles: float, detail: float) -> Array:
     """Blades in tufts that leave the path free."""
-    joints = int(np.clip(2 * detail**0.25, 1, 6))
+    joints = int(np.clip(2 * np.sqrt(np.sqrt(detail)), 1, 6))
     count = int(triangles / (2 * joints - 1))
     x, z, distance, draws = scattered(2 * count, 4, 62, 409, 1.6)
     tufts = gradient_noise(np.stack([x / 2.6, 0 * x, z / 2.6], -1), 411)
@@ -44,7 +45,7 @@ def grass(triangles: float, detail: float) -> Array:
     kept &= np.cumsum(kept) <= count
     x, z, distance, draws = x[kept], z[kept], distance[kept], draws[kept]
     growth = min(8.0, np.sqrt(max(1.0, 60000 / max(1, count))))
-    tall = (0.5 + 0.9 * draws[:, 2]) * (0.7 + 0.3 * growth**0.5)
+    tall = (0.5 + 0.9 * draws[:, 2]) * (0.7 + 0.3 * np.sqrt(growth))
     turn = 2 * PI * draws[:, 3]
     lean = np.stack([cos(turn), np.zeros_like(turn), sin(turn)], axis=-1)
     t = (np.arange(joints + 1) / joints)[:, np.newaxis]
@@ -79,7 +80,7 @@ def mushrooms(detail: float) -> Array:
     angle = random.uniform(0, 2 * PI, len(x))
     axis = np.stack([cos(angle), np.zeros(len(x)), sin(angle)], axis=-1)
     lean = vectors.rotation(axis, random.uniform(0, 0.3, len(x)))
-    segments = int(np.clip(28 * detail**0.4, 4, 48))
+    segments = int(np.clip(28 * power(detail, 0.4), 4, 48))
     some = slice(None, None, max(1, int(0.02 / detail)))
     return repeated(mushroom(segments), (lean * size[:, np.newaxis, np.newaxis])[some],
                     land.on_ground(x, z)[some])
