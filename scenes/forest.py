@@ -18,8 +18,8 @@ from model.shapes import steps
 Array = np.ndarray
 
 STANDARD = 3.0e6  # triangles
-SKY, SUN = 1.0, 850.0  # radiant exitance, the sky's at the zenith
-HAZE = 0.6
+SKY, SUN = 1.2, 680.0  # radiant exitance, the sky's at the zenith
+HAZE = 0.7
 REFLECTANCE = 0.55
 
 

@@ -78,10 +78,20 @@ def fallen(length: float, radius: float, sides: int, rows: int) -> Array:
     n = 41
     radii = radius * (1 - 0.35 * np.arange(n) / n)
     radii[0] = radii[-1] = 0.05 * radius
-    bend = 0.012 * length * sin(np.arange(n) / 9)
+    bend = 0.022 * length * sin(np.arange(n) / 8)
     path = np.stack([bend, length * np.arange(n) / (n - 1), 0.7 * bend], axis=-1)
-    log = stem(path, radii, Bark(0.09, 2.6, 5.0, 0.0), sides, rows, 5)
+    log = stem(path, radii, Bark(0.15, 2.6, 4.0, 0.0), sides, rows, 5)
+    log = joined(log, _stubs(path, radius, max(3, sides // 4)))
     return np.stack([log[..., 1], 0.72 * radius - log[..., 0], log[..., 2]], axis=-1)
+
+
+def _stubs(path: Array, radius: float, sides: int) -> Array:
+    """What is left of the limbs of a fallen stem, broken off."""
+    base = path[[11, 21, 33]]
+    aim = np.array([[-1.5, 0.9, 0.5], [-0.7, 0.8, -1.2], [-1.0, 0.5, 0.7]])
+    reach = radius * np.array([1.7, 2.0, 1.3])[:, np.newaxis]
+    paths = np.stack([base, base + 0.6 * reach * aim, base + reach * (aim + (0.1, 0.3, 0))], axis=1)
+    return tubes(paths, radius * np.array([0.36, 0.25, 0.17]), sides)
 
 
 def branches(shoots: Shoots, fineness: float, sides: int) -> Array:

@@ -12,22 +12,30 @@ from model.shapes import lathe, spline
 from . import land, leaves
 from .branching import UP
 from .scatter import scattered
-from .species import BROAD
 
 Array = np.ndarray
 
+WITHERED = (  # fallen leaves, pressed flat: coarse and fine
+    [leaves.simple_blade(0.5, 0.3, 0.12), leaves.simple_blade(0.45, 0.34, -0.1)],
+    [leaves.blade([(0.45, 0.3)], 0.12, 0.08), leaves.blade([(0.5, 0.34)], -0.08, -0.06),
+     leaves.blade([(0.4, 0.27)], 0.18, -0.1)])
+MUSHROOMS = [  # x, z, height
+    (1.00, 36.10, 0.62), (0.62, 35.75, 0.44), (1.32, 35.80, 0.40), (0.90, 35.45, 0.30),
+    (1.28, 36.45, 0.26), (0.50, 36.25, 0.27), (1.62, 36.15, 0.20), (0.05, 34.90, 0.42),
+    (0.38, 34.70, 0.28), (-0.25, 34.55, 0.24), (1.50, 32.60, 0.42), (1.85, 32.40, 0.30),
+    (1.45, 32.15, 0.25), (3.20, 27.60, 0.45), (2.90, 27.30, 0.35)]
+
 
 def fallen_leaves(triangles: float) -> Array:
-    level = int(triangles > 2e4) + int(triangles > 1.2e5)
-    blades = BROAD[level]
+    blades = WITHERED[int(triangles > 2e4)]
     count = int(triangles / len(blades[0]))
     x, z, distance, draws = scattered(count, 2.5, 60, 401, 1.9)
     turn = 2 * PI * draws[:, 0]
-    direction = np.stack([cos(turn), 0.3 * (draws[:, 1] - 0.5), sin(turn)], axis=-1)
-    upper = UP + 0.45 * (draws[:, 2:5] * 2 - 1)
-    growth = min(4.0, np.sqrt(max(1.0, 24000 / max(1, count))))
-    size = 0.19 * (0.6 + 0.7 * draws[:, 5]) * (1 + distance / 30) * growth
-    lift = (0.03 + 0.06 * draws[:, 3])[:, np.newaxis] * UP
+    direction = np.stack([cos(turn), 0.2 * (draws[:, 1] - 0.5), sin(turn)], axis=-1)
+    upper = UP + 0.22 * (draws[:, 2:5] * 2 - 1)
+    growth = min(4.0, np.sqrt(max(1.0, 40000 / max(1, count))))
+    size = 0.15 * (0.6 + 0.7 * draws[:, 5]) * (1 + distance / 30) * growth
+    lift = (0.02 + 0.03 * draws[:, 3])[:, np.newaxis] * UP
     return leaves.strewn(blades, leaves.frames(direction, upper, size, size),
                          land.on_ground(x, z) + lift)
 
@@ -62,25 +70,21 @@ def grass(triangles: float, detail: float) -> Array:
 
 
 def mushroom(segments: int) -> Array:
-    """Cap and stem, a unit high."""
-    cap = spline(np.array([(0.10, 0.66), (0.40, 0.60), (0.52, 0.58), (0.50, 0.68), (0.36, 0.88),
-                           (0.16, 0.98), (0.0, 1.0)]), max(5, segments // 2))
+    """Cap and foot, a unit high."""
+    cap = spline(np.array([(0.07, 0.60), (0.30, 0.56), (0.42, 0.53), (0.42, 0.60), (0.34, 0.80),
+                           (0.18, 0.96), (0.0, 1.0)]), max(6, segments // 2))
     cap[-1, 0] = 0
-    foot = np.array([(0.15, -0.3), (0.12, 0.1), (0.10, 0.68)])
+    foot = np.array([(0.13, -0.3), (0.10, 0.1), (0.075, 0.40), (0.07, 0.62)])
     return joined(lathe(cap, segments), lathe(foot, max(4, segments // 2)))
 
 
 def mushrooms(detail: float) -> Array:
-    """Groups of them: x, z, radius of the group, number."""
-    groups = [(0.9, 35.7, 0.45, 9), (0.2, 34.6, 0.4, 7), (3.2, 26.6, 0.5, 6), (1.5, 32.0, 0.3, 5)]
     random = Random(431)
-    x, z, size = (np.concatenate(values) for values in zip(*(
-        (x + spread * random.normal(count), z + spread * random.normal(count),
-         random.uniform(0.16, 0.42, count)) for x, z, spread, count in groups)))
+    x, z, size = np.array(MUSHROOMS).T
     angle = random.uniform(0, 2 * PI, len(x))
     axis = np.stack([cos(angle), np.zeros(len(x)), sin(angle)], axis=-1)
-    lean = vectors.rotation(axis, random.uniform(0, 0.3, len(x)))
-    segments = int(np.clip(28 * power(detail, 0.4), 4, 48))
+    lean = vectors.rotation(axis, random.uniform(0, 0.25, len(x)))
+    segments = int(np.clip(40 * power(detail, 0.4), 4, 64))
     some = slice(None, None, max(1, int(0.02 / detail)))
     return repeated(mushroom(segments), (lean * size[:, np.newaxis, np.newaxis])[some],
                     land.on_ground(x, z)[some])
