@@ -141,9 +141,8 @@ Conversion converted(const Model& model, const ImportSettings& settings) {
 
     result.scene.triangles.reserve(known.triangles + 2 * settings.lights.size());
     placeModel(model, known, result);
+    result.camera = framingCamera(result.scene.triangles, result.up);
     addSquareLights(settings, result);
-    result.camera = framingCamera(
-        {result.placement(known.box.min), result.placement(known.box.max)}, result.up);
     if (model.camera()) {
         const V3d position = result.placement(model.camera()->position);
         result.hasCameraOfFile = isFinite(V3f(position));
