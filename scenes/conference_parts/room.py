@@ -125,8 +125,8 @@ def door(fine: float) -> Array:
     panels = boxes([x0 + 0.9, 1.2, z - 0.3] + grooves, [x1 - 0.9, 5.5, z - 0.2] + grooves,
                    ('front',))
     rosette = rotated(cylinder(0.28, 0, 0.08, steps(28 * fine, 8)), X, -PI / 2)
-    lever = bar(bent([(0, 0, -0.03), (0, 0, -0.55), (-1.25, 0, -0.55)], 0.25, steps(8 * fine, 1)), 0.09,
-                steps(12 * fine, 4))
+    way = bent([(0, 0, -0.03), (0, 0, -0.55), (-1.25, 0, -0.55)], 0.25, steps(8 * fine, 1))
+    lever = bar(way, 0.09, steps(12 * fine, 4))
     handle = moved(joined(rosette, lever), x1 - 0.5, 10.4, z - 0.2)
     return joined(posts, lintel, leaf, panels, handle)
 

@@ -145,7 +145,8 @@ def between_tiers(lower: Tier, upper: Tier) -> list[tuple[float, float]]:
     concourse, its back wall, and the front of the upper tier."""
     back, floor = lower.row_offset(lower.rows), lower.row_height(lower.rows)
     edge, top = upper.offset - GANGWAY, upper.height + PARAPET
-    return [(back, floor - lower.step_height()), (back, floor), (back + CONCOURSE, floor), (back + CONCOURSE, SOFFIT),
+    return [(back, floor - lower.step_height()), (back, floor),
+            (back + CONCOURSE, floor), (back + CONCOURSE, SOFFIT),
             (edge + 1.2, SOFFIT), (edge + 0.3, SOFFIT + 0.35), (edge, SOFFIT + 0.5), (edge, top),
             (edge + 0.2, top), (edge + 0.2, upper.height), (upper.offset, upper.height)]
 

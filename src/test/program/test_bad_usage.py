@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from box import box_triangles, write_triangles
-from program import batch_command, complaint, refusal, render, run
+from program import complaint, refusal, render, run
 
 SIZES = ['0x0', '0x12', '16x0', '-16x12', '16x-12', '16', '16x', 'x12', 'x', '', '16x12x3', '16X12',
          '16 x 12', '16x12 ', '1.5x2', '1e2x1e2', 'nanxnan', 'wide', '99999999x99999999',
