@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import xml.etree.ElementTree as ElementTree
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -33,10 +34,27 @@ def counts(report: Path, status: int) -> tuple[int, int, int]:
     return total - failed - skipped, failed, skipped
 
 
-def run(command: list[str], report: Path) -> tuple[int, int, int]:
-    print(f"--- {Path(command[0]).name} {' '.join(command[1:2])}", flush=True)
-    status = subprocess.run(command, check=False).returncode
-    return counts(report, status)
+def heading(name: str) -> bytes:
+    return f'--- {name}\n'.encode()
+
+
+def run_program(program: str, folder: str) -> tuple[int, int, int]:
+    """Keeps the output together: another program may run at the same time."""
+    report = Path(folder) / f'{Path(program).name}.xml'
+    result = subprocess.run([program, '--gtest_brief=1', f'--gtest_output=xml:{report}'],
+                            check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    sys.stdout.buffer.write(heading(Path(program).name) + result.stdout)
+    sys.stdout.flush()
+    return counts(report, result.returncode)
+
+
+def run_pytest(folder: str) -> tuple[int, int, int]:
+    report = Path(folder) / 'pytest.xml'
+    sys.stdout.buffer.write(heading('pytest'))
+    sys.stdout.flush()
+    result = subprocess.run([sys.executable, '-m', 'pytest', '-q', '-rs', '-p', 'no:cacheprovider',
+                             f'--junitxml={report}', *map(str, PYTHON_TESTS)], check=False)
+    return counts(report, result.returncode)
 
 
 def main() -> int:
@@ -55,15 +73,12 @@ def main() -> int:
     # for each other. It is not instrumented, so that its own memory would look like races.
     os.environ['ASAN_OPTIONS'] = 'allocator_may_return_null=1'
     os.environ['TSAN_OPTIONS'] = 'allocator_may_return_null=1:ignore_noninstrumented_modules=1'
-    results = []
     with tempfile.TemporaryDirectory() as folder:
-        for program in arguments.programs:
-            report = Path(folder) / f'{Path(program).name}.xml'
-            results.append(run([program, '--gtest_brief=1', f'--gtest_output=xml:{report}'], report))
+        with ThreadPoolExecutor(os.cpu_count()) as side_by_side:
+            results = list(side_by_side.map(lambda program: run_program(program, folder),
+                                            arguments.programs))
         if not arguments.no_program_tests:
-            report = Path(folder) / 'program.xml'
-            results.append(run([sys.executable, '-m', 'pytest', '-q', '-rs', '-p', 'no:cacheprovider',
-                                f'--junitxml={report}', *map(str, PYTHON_TESTS)], report))
+            results.append(run_pytest(folder))
     passed, failed, skipped = (sum(column) for column in zip(*results))
     if skipped:
         print(f'{skipped} skipped')
