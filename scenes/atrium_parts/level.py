@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from model.shapes import steps
+from model.shapes import simplified, steps
 
 Array = np.ndarray
 TOLERANCE = 0.0016  # by which an outline may be off at the standard level
@@ -50,22 +50,3 @@ def _bent(knots: list[tuple]) -> Array:
         points.append(np.stack([x0 + (x1 - x0) * t + (y1 - y0) * height,
                                 y0 + (y1 - y0) * t - (x1 - x0) * height], axis=-1))
     return np.concatenate(points)
-
-
-def simplified(line: Array, tolerance: float) -> Array:
-    """The fewest points of a line (n, 2) that Douglas and Peucker's method has to keep."""
-    keep, spans = {0, len(line) - 1}, [(0, len(line) - 1)]
-    while spans:
-        first, last = spans.pop()
-        if last - first < 2:
-            continue
-        start, chord, between = line[first], line[last] - line[first], line[first + 1:last]
-        norm = math.sqrt(float(chord[0] * chord[0] + chord[1] * chord[1])) or 1.0
-        apart = np.abs((between[:, 0] - start[0]) * chord[1]
-                       - (between[:, 1] - start[1]) * chord[0]) / norm
-        farthest = int(np.argmax(apart))
-        if apart[farthest] > tolerance:
-            middle = first + 1 + farthest
-            keep.add(middle)
-            spans += [(first, middle), (middle, last)]
-    return line[sorted(keep)]

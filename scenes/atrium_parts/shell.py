@@ -6,7 +6,7 @@ import numpy as np
 from model.meshes import X, joined, moved, repeated, rotated
 from model.noise import gradient_noise
 from model.portable import PI, Random, cos, sin
-from model.shapes import quad, surface
+from model.shapes import halves, quad, surface
 
 from . import order
 from .arcade import coffer
@@ -176,8 +176,7 @@ def grids(points: Array) -> Array:
     """Two triangles for each cell of each of many grids (n, nu, nv, 3)."""
     a, b = points[:, :-1, :-1], points[:, 1:, :-1]
     c, d = points[:, 1:, 1:], points[:, :-1, 1:]
-    return np.stack([np.stack([a, b, c], axis=-2), np.stack([a, c, d], axis=-2)],
-                    axis=3).reshape(-1, 3, 3)
+    return halves(a, b, c, d).reshape(-1, 3, 3)
 
 
 def floors(level: Level) -> Array:

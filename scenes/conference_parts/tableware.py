@@ -6,7 +6,7 @@ import numpy as np
 from model import vectors
 from model.meshes import joined, moved
 from model.portable import Random
-from model.shapes import lathe, sphere, spline, steps
+from model.shapes import lathe, smooth_lathe, sphere, spline, steps
 
 from .basics import bar
 
@@ -15,9 +15,8 @@ Array = np.ndarray
 
 def turned(profile: list[tuple[float, float]], fine: float, rings: int, segments: int) -> Array:
     """A lathe along a smooth curve through the profile."""
-    curve = spline(profile, steps(rings * fine, len(profile) // 2 + 1))
-    curve[:, 0] = np.maximum(0, curve[:, 0])
-    return lathe(curve, steps(segments * fine, 5))
+    return smooth_lathe(profile, steps(rings * fine, len(profile) // 2 + 1),
+                        steps(segments * fine, 5))
 
 
 def saucer(fine: float) -> Array:

@@ -20,6 +20,11 @@ def circle(segments: int, radius: float = 1) -> Array:
     return np.stack([radius * cos(angle), radius * sin(angle)], axis=-1)
 
 
+def halves(a: Array, b: Array, c: Array, d: Array) -> Array:
+    """The two triangles (..., 2, 3, 3) of each cell with these corners (..., 3)."""
+    return np.stack([np.stack([a, b, c], axis=-2), np.stack([a, c, d], axis=-2)], axis=-3)
+
+
 def surface(points: Array, closed_u: bool = False, closed_v: bool = False) -> Array:
     """Two triangles for each cell of a grid of points (nu, nv, 3); closed axes join up.
 
@@ -33,8 +38,7 @@ def surface(points: Array, closed_u: bool = False, closed_v: bool = False) -> Ar
     if closed_v:
         points = np.concatenate([points, points[:, :1]], axis=1)
     a, b, c, d = points[:-1, :-1], points[1:, :-1], points[1:, 1:], points[:-1, 1:]
-    triangles = np.stack([np.stack([a, b, c], axis=-2), np.stack([a, c, d], axis=-2)], axis=2)
-    triangles = triangles.reshape(-1, 3, 3)
+    triangles = halves(a, b, c, d).reshape(-1, 3, 3)
     p, q, r = np.moveaxis(triangles.astype(np.float32), 1, 0)  # what will be written
     whole = ((p != q).any(axis=1) & (q != r).any(axis=1) & (r != p).any(axis=1))
     return triangles[whole]
@@ -90,6 +94,13 @@ def lathe(profile: Array, segments: int) -> Array:
     radius, height = profile[:, 0], np.broadcast_to(profile[:, 1], (segments, len(profile)))
     return surface(np.stack([ring[:, :1] * radius, height, ring[:, 1:] * radius], axis=-1),
                    closed_u=True)
+
+
+def smooth_lathe(profile: Array, points: int, segments: int) -> Array:
+    """A lathe of so many points on a smooth curve through the profile."""
+    curve = spline(profile, points)
+    curve[:, 0] = np.maximum(curve[:, 0], 0)
+    return lathe(curve, segments)
 
 
 def cylinder(radius: float, bottom: float, top: float, segments: int) -> Array:
@@ -168,7 +179,7 @@ def tubes(paths: Array, radius: Array | float, segments: int, closed_ends: bool 
     following = np.roll(points, -1, axis=1)
     a, b = points[:, :, :-1], following[:, :, :-1]
     c, d = following[:, :, 1:], points[:, :, 1:]
-    triangles = np.stack([np.stack([a, b, c], axis=-2), np.stack([a, c, d], axis=-2)], axis=3)
+    triangles = halves(a, b, c, d)
     if closed_ends:  # the rings of the ends have one triangle for each segment
         return np.concatenate([triangles[:, :, :1, 1].reshape(-1, 3, 3),
                                triangles[:, :, 1:-1].reshape(-1, 3, 3),
@@ -181,6 +192,25 @@ def _reflected(vector: Array, normal: Array) -> Array:
     squared = vectors.dot(normal, normal)
     factor = 2 * vectors.dot(normal, vector) / np.where(squared > 0, squared, 1)
     return vector - factor[..., np.newaxis] * normal
+
+
+def simplified(line: Array, tolerance: float) -> Array:
+    """The fewest points of a line (n, 2) that Douglas and Peucker's method has to keep."""
+    keep, spans = {0, len(line) - 1}, [(0, len(line) - 1)]
+    while spans:
+        first, last = spans.pop()
+        if last - first < 2:
+            continue
+        start, chord, between = line[first], line[last] - line[first], line[first + 1:last]
+        norm = float(np.sqrt(chord[0] * chord[0] + chord[1] * chord[1])) or 1.0
+        apart = np.abs((between[:, 0] - start[0]) * chord[1]
+                       - (between[:, 1] - start[1]) * chord[0]) / norm
+        farthest = int(np.argmax(apart))
+        if apart[farthest] > tolerance:
+            middle = first + 1 + farthest
+            keep.add(middle)
+            spans += [(first, middle), (middle, last)]
+    return line[sorted(keep)]
 
 
 def spline(points: Array, samples: int) -> Array:

@@ -11,7 +11,7 @@ import numpy as np
 
 from model import vectors
 from model.portable import PI, cos, sin
-from model.shapes import box
+from model.shapes import box, halves
 
 Array = np.ndarray
 
@@ -47,23 +47,27 @@ def _lengths(offset: float) -> Array:
     return np.concatenate([[0.0], np.cumsum((_BREAK_RADII + offset) * np.diff(_BREAKS))])
 
 
+def _arc(values: Array, breaks: Array) -> Array:
+    """Between which of the breaks each value lies."""
+    return np.clip(np.searchsorted(breaks, values, side='right') - 1, 0, len(_BREAK_RADII) - 1)
+
+
 def length_to(angle: Array, offset: float) -> Array:
     """Along a ring, from the direction of x."""
-    arc = np.clip(np.searchsorted(_BREAKS, angle, side='right') - 1, 0, len(_BREAK_RADII) - 1)
+    arc = _arc(angle, _BREAKS)
     return _lengths(offset)[arc] + (_BREAK_RADII[arc] + offset) * (angle - _BREAKS[arc])
 
 
 def angle_at(length: Array, offset: float) -> Array:
     """The inverse of length_to."""
     lengths = _lengths(offset)
-    arc = np.clip(np.searchsorted(lengths, length, side='right') - 1, 0, len(_BREAK_RADII) - 1)
+    arc = _arc(length, lengths)
     return _BREAKS[arc] + (length - lengths[arc]) / (_BREAK_RADII[arc] + offset)
 
 
 def evenly(count: int, offset: float = BAYS_EVEN_AT, start: float = 0) -> Array:
     """Directions of places at equal distances along a ring, the first one after `start` steps."""
-    perimeter = _lengths(offset)[-1]
-    return angle_at((np.arange(count) + start) * (perimeter / count), offset)
+    return angle_at((np.arange(count) + start) * (perimeter(offset) / count), offset)
 
 
 def perimeter(offset: float) -> float:
@@ -78,8 +82,7 @@ def bays(fractions: list[float]) -> Array:
 
 def radius(angle: Array, offset: float) -> Array:
     """Of the curvature of a ring."""
-    arc = np.clip(np.searchsorted(_BREAKS, angle, side='right') - 1, 0, len(_BREAK_RADII) - 1)
-    return _BREAK_RADII[arc] + offset
+    return _BREAK_RADII[_arc(angle, _BREAKS)] + offset
 
 
 def facing_in(angle: Array) -> Array:
@@ -112,7 +115,7 @@ def ring(profile: Array, angles: Array) -> Array:
     points = at(angles[:, np.newaxis], profile[:, 1], profile[:, 0])
     following = np.roll(points, -1, axis=0)
     a, b, c, d = points[:, :-1], following[:, :-1], following[:, 1:], points[:, 1:]
-    return np.stack([np.stack([a, b, c], axis=-2), np.stack([a, c, d], axis=-2)], axis=2)
+    return halves(a, b, c, d)
 
 
 def quads(*corners: tuple[Array, float, float]) -> Array:

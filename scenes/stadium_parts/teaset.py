@@ -4,7 +4,7 @@
 import numpy as np
 
 from model.meshes import joined, moved, rotated, scaled, Y
-from model.shapes import lathe, rounded_box, spline, steps, tubes
+from model.shapes import lathe, rounded_box, smooth_lathe, spline, steps, tubes
 
 from .teapot import teapot
 
@@ -37,11 +37,11 @@ def cup(segments: int) -> Array:
                (0.135, 0.1), (0.08, 0.055), (0, 0.05)]
     handle = spline(np.array([(0.17, 0.205, 0), (0.24, 0.22, 0), (0.285, 0.18, 0),
                               (0.26, 0.125, 0), (0.21, 0.095, 0), (0.15, 0.1, 0)]), segments)
-    return joined(smooth_lathe(profile, segments), tubes(handle, 0.014, steps(segments / 5, 4)))
+    return joined(turned(profile, segments), tubes(handle, 0.014, steps(segments / 5, 4)))
 
 
 def saucer(segments: int) -> Array:
-    return smooth_lathe([(0.0, 0.0), (0.17, 0.0), (0.2, 0.012), (0.36, 0.055), (0.365, 0.064),
+    return turned([(0.0, 0.0), (0.17, 0.0), (0.2, 0.012), (0.36, 0.055), (0.365, 0.064),
                          (0.355, 0.067), (0.2, 0.026), (0.17, 0.018), (0.0, 0.016)], segments)
 
 
@@ -53,11 +53,8 @@ def sugar(segments: int) -> Array:
                   for x, layer, z, turn in LUMPS)
 
 
-def smooth_lathe(profile: list[tuple[float, float]], segments: int) -> Array:
-    """A surface of revolution with a smooth curve through the profile's points."""
-    curve = spline(np.array(profile), max(len(profile), segments * 2 // 3))
-    curve[:, 0] = np.maximum(curve[:, 0], 0)
-    return lathe(curve, segments)
+def turned(profile: list[tuple[float, float]], segments: int) -> Array:
+    return smooth_lathe(profile, max(len(profile), segments * 2 // 3), segments)
 
 
 def teaset(fineness: float) -> Array:

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from model.shapes import steps, surface
+from model.shapes import simplified, steps, surface
 
 Array = np.ndarray
 
@@ -25,21 +25,7 @@ def profile(corners: list[tuple[float, ...]], detail: float) -> Array:
         count = steps(7 * np.sqrt(detail), 1)
         for t in np.arange(1, count + 1) / count:
             points.append((1 - t) * (1 - t) * start + 2 * t * (1 - t) * control + t * t * end)
-    return _simplified(np.array(points), TOLERANCE / float(np.sqrt(detail)))
-
-
-def _simplified(points: Array, tolerance: float) -> Array:
-    """Without points that lie within a tolerance of a chord (Douglas and Peucker)."""
-    if len(points) < 3:
-        return points
-    x, y = points[-1] - points[0]
-    q = points - points[0]
-    distance = np.abs(q[:, 0] * y - q[:, 1] * x) / np.sqrt(x * x + y * y)
-    farthest = int(np.argmax(distance))
-    if distance[farthest] <= tolerance:
-        return points[[0, -1]]
-    return np.concatenate([_simplified(points[:farthest + 1], tolerance)[:-1],
-                           _simplified(points[farthest:], tolerance)])
+    return simplified(np.array(points), TOLERANCE / float(np.sqrt(detail)))
 
 
 def around_pilaster(section: Array, half_width: float, depth: float) -> Array:
