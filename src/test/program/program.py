@@ -5,7 +5,11 @@ import json
 import os
 import subprocess
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+
+import pytest
 
 REPOSITORY = Path(__file__).resolve().parents[3]
 BUILD = Path(os.environ.get('BWFIRT_BUILD', REPOSITORY / 'build')).resolve()
@@ -43,6 +47,19 @@ def wait_for_file(folder: Path, pattern: str) -> None:
     while not list(folder.glob(pattern)):
         assert time.monotonic() < end, f'{pattern} has not come'
         time.sleep(0.01)
+
+
+@contextmanager
+def mounted_disk(folder: Path, size: str) -> Iterator[Path]:
+    """A file system of that size, in a new folder."""
+    disk = folder / 'disk'
+    disk.mkdir()
+    if run('mount', '-t', 'tmpfs', '-o', f'size={size}', 'tmpfs', disk).returncode != 0:
+        pytest.skip('mounting a small file system needs rights that this process does not have')
+    try:
+        yield disk
+    finally:
+        run('umount', disk)
 
 
 def read_report(folder: Path) -> dict:

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from box import write_box
-from program import batch_command, complaint, refusal, run
+from program import batch_command, complaint, mounted_disk, refusal, run
 
 FOR_EVER = ('--passes', '1000000000')
 OUTPUTS = ['image.exr', 'image.png', 'report.json']
@@ -92,15 +92,9 @@ def test_a_full_standard_output_fails(program: Path, folder: Path) -> None:
 @pytest.fixture
 def small_disk(tmp_path: Path) -> Iterator[Path]:
     """A file system of 32 kB with the box on it."""
-    disk = tmp_path / 'disk'
-    disk.mkdir()
-    if run('mount', '-t', 'tmpfs', '-o', 'size=32k', 'tmpfs', disk).returncode != 0:
-        pytest.skip('mounting a small file system needs rights that this process does not have')
-    try:
+    with mounted_disk(tmp_path, '32k') as disk:
         write_box(disk)
         yield disk
-    finally:
-        run('umount', disk)
 
 
 def test_a_full_disk_leaves_nothing_behind(program: Path, small_disk: Path) -> None:

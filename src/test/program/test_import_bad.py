@@ -16,7 +16,7 @@ import pytest
 import models
 from importer import IMPORT, WRITTEN, import_model, imported, refusal_of
 from models import FACES, VERTICES, glb, gltf, obj, write_gltf
-from program import complaint, run, wait_for_file
+from program import complaint, mounted_disk, run, wait_for_file
 
 
 @pytest.fixture
@@ -88,14 +88,8 @@ def test_a_model_is_not_overwritten_by_its_scene(tmp_path: Path) -> None:
 @pytest.fixture
 def small_disk(tmp_path: Path) -> Iterator[Path]:
     """A file system of 64 kB."""
-    disk = tmp_path / 'disk'
-    disk.mkdir()
-    if run('mount', '-t', 'tmpfs', '-o', 'size=64k', 'tmpfs', disk).returncode != 0:
-        pytest.skip('mounting a small file system needs rights that this process does not have')
-    try:
+    with mounted_disk(tmp_path, '64k') as disk:
         yield disk
-    finally:
-        run('umount', disk)
 
 
 def test_a_full_disk_leaves_the_old_scene_as_it_was(small_disk: Path) -> None:

@@ -141,16 +141,14 @@ Conversion converted(const Model& model, const ImportSettings& settings) {
 
     result.scene.triangles.reserve(known.triangles + 2 * settings.lights.size());
     placeModel(model, known, result);
-    result.camera = framingCamera(result.scene.triangles, result.up);
-    addSquareLights(settings, result);
     if (model.camera()) {
-        const V3d position = result.placement(model.camera()->position);
-        result.hasCameraOfFile = isFinite(V3f(position));
-        if (result.hasCameraOfFile) {
-            result.camera = *model.camera();
-            result.camera.position = position;
-        }
+        result.camera = *model.camera();
+        result.camera.position = result.placement(result.camera.position);
+        result.hasCameraOfFile = isFinite(V3f(result.camera.position));
     }
+    if (!result.hasCameraOfFile)
+        result.camera = framingCamera(result.scene.triangles, result.up);
+    addSquareLights(settings, result);
     return result;
 }
 
