@@ -54,6 +54,17 @@ std::uint64_t parseSeed(const std::string& text) {
     return seed;
 }
 
+/// CLI11's ranges would let NaN pass.
+double parseReplaySeconds(const std::string& text) {
+    double seconds = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+    const bool isNumber = error == std::errc() && end == text.data() + text.size();
+    if (!isNumber || !(seconds >= 0.01 && seconds <= 3600))
+        throw UsageError("--replay-seconds: expected a number from 0.01 to 3600, not '" + text +
+                         "'");
+    return seconds;
+}
+
 void setKernelOption(RTKernel& kernel, const std::string& assignment, Settings& settings) {
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos)
@@ -88,6 +99,7 @@ std::optional<Settings> parseCommandLine(int argc, const char* const* argv, RTKe
     settings.threads = threadsAvailable();
     std::string size = "640x480";
     std::string seed = "1";
+    std::string replaySeconds;
     std::vector<std::string> kernelOptions;
 
     CLI::App app("Benchmarks the ray tracing kernel " + std::string(KernelInfo::NAME) +
@@ -152,6 +164,12 @@ std::optional<Settings> parseCommandLine(int argc, const char* const* argv, RTKe
             ->excludes(checkpoint, record)
             ->check(IS_PATH)
             ->type_name("FILE");
+    CLI::Option* measurement =
+        app.add_option("--replay-seconds", replaySeconds,
+                       "the least time of each measurement of a replay, from 0.01 to 3600, "
+                       "default 1")
+            ->needs(replay)
+            ->type_name("S");
     app.add_option("--only", settings.only,
                    "replays the N-th ray only, from 0, and prints both answers")
         ->needs(replay)
@@ -172,6 +190,8 @@ std::optional<Settings> parseCommandLine(int argc, const char* const* argv, RTKe
     }
     std::tie(settings.width, settings.height) = parseSize(size);
     settings.seed = parseSeed(seed);
+    if (*measurement)
+        settings.secondsPerMeasurement = parseReplaySeconds(replaySeconds);
     for (const std::string& assignment : kernelOptions)
         setKernelOption(kernel, assignment, settings);
     if (!settings.viewName.empty())

@@ -62,6 +62,17 @@ std::string describeExamples(const RayStream& stream, const ReplayAnswers& answe
     return text.empty() ? text : text + "\n--replay FILE --only N asks ray N alone.\n";
 }
 
+void warnOfShortMeasurements(const ReplayResult& result, RunReport& report) {
+    if (result.secondsPerMeasurement >= Replay::SECONDS_PER_MEASUREMENT)
+        return;
+    char text[128];
+    std::snprintf(text, sizeof text,
+                  "rates measured for %g s at a time are for a first look: take the default of "
+                  "%g s for figures to be published",
+                  result.secondsPerMeasurement, Replay::SECONDS_PER_MEASUREMENT);
+    report.warnings.push_back(text);
+}
+
 void warnOfErrors(const ReplayAnswers& answers, RunReport& report) {
     std::string errors;
     for (std::size_t kind = 0; kind < answers.counts.size(); ++kind)
@@ -93,13 +104,15 @@ void runReplay(const Settings& settings, std::unique_ptr<RTKernel> kernel) {
     run.measureKernelMemory();
 
     RunReport& report = run.report;
-    const ReplayResult result =
-        Replay(run.kernel(), stream, settings.threads, settings.inFlight).run();
+    const ReplayResult result = Replay(run.kernel(), stream, settings.threads, settings.inFlight,
+                                       settings.secondsPerMeasurement)
+                                    .run();
     report.rays = result.counts;
     report.secondsRender = static_cast<double>(stream.records.size()) / result.mixed.perSecond;
     constexpr double UNKNOWN = std::numeric_limits<double>::quiet_NaN();
     report.averageIntensity = report.standardError = V3d(UNKNOWN);
     report.replay = result;
+    warnOfShortMeasurements(result, report);
     warnOfErrors(result.answers, report);
     const std::string examples = describeExamples(stream, result.answers, run.kernel());
     run.finish();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/FalseColour.h"
+#include "render/Replay.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -31,7 +32,8 @@ struct Settings {
     bool reference = false;            ///< the camera file gets the average intensity
     std::filesystem::path record;      ///< empty: no rays are recorded
     std::uint64_t raysToRecord = 2000000;
-    std::filesystem::path replay;       ///< empty: no rays are replayed
+    std::filesystem::path replay;  ///< empty: no rays are replayed
+    double secondsPerMeasurement = Replay::SECONDS_PER_MEASUREMENT;  ///< of replaying
     std::optional<std::uint64_t> only;  ///< index of a single ray to replay
     std::vector<std::pair<std::string, std::string>> kernelOptions;
 };

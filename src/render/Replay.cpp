@@ -13,7 +13,6 @@ namespace bwfirt {
 namespace {
 
 constexpr int MEASUREMENTS = 3;
-constexpr double SECONDS_PER_MEASUREMENT = 1;
 constexpr double TIE_DISTANCE = 1e-5;
 
 /// Questions that a thread takes at a time: enough of them to outweigh the taking.
@@ -25,7 +24,7 @@ constexpr std::array<Bounces, 5> BOUNCES = {
 /// A measurement takes whole sweeps of all `count` questions: calls ask(begin, end) for chunks of
 /// them, which the threads share.
 template <typename Ask>
-Rate measure(std::size_t count, int threads, const Ask& ask) {
+Rate measure(std::size_t count, int threads, double secondsAtLeast, const Ask& ask) {
     using Clock = std::chrono::steady_clock;
     const auto sweep = [&] {
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
@@ -44,7 +43,7 @@ Rate measure(std::size_t count, int threads, const Ask& ask) {
             sweep();
             ++sweeps;
             seconds = std::chrono::duration<double>(Clock::now() - start).count();
-        } while (seconds < SECONDS_PER_MEASUREMENT);
+        } while (seconds < secondsAtLeast);
         rate.measurements.push_back(static_cast<double>(count * sweeps) / seconds);
     }
     std::vector<double> sorted = rate.measurements;
@@ -229,15 +228,16 @@ ReplayAnswers Replay::compareAnswers() const {
 ReplayResult Replay::run() const {
     ReplayResult result;
     result.recordedBy = stream_.kernel;
+    result.secondsPerMeasurement = secondsPerMeasurement_;
     result.counts = stream_.counts;
     {
         const Questions all(stream_.records);
         const auto asker = makeAsker(kernel_, all, inFlight_);
-        result.intersect = measure(all.rays.size(), threads_,
+        result.intersect = measure(all.rays.size(), threads_, secondsPerMeasurement_,
                                    [&](auto begin, auto end) { asker->intersect(begin, end); });
-        result.visibility = measure(all.segments.size(), threads_,
+        result.visibility = measure(all.segments.size(), threads_, secondsPerMeasurement_,
                                     [&](auto begin, auto end) { asker->visibility(begin, end); });
-        result.mixed = measure(all.mixed.size(), threads_,
+        result.mixed = measure(all.mixed.size(), threads_, secondsPerMeasurement_,
                                [&](auto begin, auto end) { asker->mixed(begin, end); });
     }
     for (const Bounces& bounces : BOUNCES) {
@@ -248,11 +248,11 @@ ReplayResult Replay::run() const {
                      });
         const Questions some(records);
         const auto asker = makeAsker(kernel_, some, inFlight_);
-        result.byBounce.push_back({bounces,
-                                   {some.rays.size(), some.segments.size()},
-                                   measure(records.size(), threads_, [&](auto begin, auto end) {
-                                       asker->mixed(begin, end);
-                                   })});
+        result.byBounce.push_back(
+            {bounces,
+             {some.rays.size(), some.segments.size()},
+             measure(records.size(), threads_, secondsPerMeasurement_,
+                     [&](auto begin, auto end) { asker->mixed(begin, end); })});
     }
     result.answers = compareAnswers();
     return result;

@@ -10,7 +10,7 @@
 namespace bwfirt {
 
 /// How often a kernel answers a stream's questions per second: the median of several measurements,
-/// each of which takes as many whole sweeps of the questions as fill a second.
+/// each of which takes as many whole sweeps of the questions as fill the time that was asked for.
 struct Rate {
     double perSecond = 0;
     std::vector<double> measurements;  ///< all of them, in the order in which they were made
@@ -52,7 +52,8 @@ struct BounceRate {
 };
 
 struct ReplayResult {
-    std::string recordedBy;  ///< a kernel
+    std::string recordedBy;            ///< a kernel
+    double secondsPerMeasurement = 0;  ///< that each measurement takes at least
     RayCounts counts;
     Rate intersect;   ///< h alone
     Rate visibility;  ///< V alone
@@ -64,13 +65,22 @@ struct ReplayResult {
 /// Asks a kernel the questions of a stream, without the renderer.
 class Replay {
   public:
+    /// Shorter measurements tell more of the machine's noise than of a kernel.
+    static constexpr double SECONDS_PER_MEASUREMENT = 1;
+
     /// @param inFlight 1 asks question by question. A larger number asks for so many at once: for
     ///        `mixed` each 2 * inFlight questions in a row, first those of h, then those of V.
-    Replay(const RTKernel& kernel, const RayStream& stream, int threads, int inFlight)
-        : kernel_(kernel), stream_(stream), threads_(threads), inFlight_(inFlight) {}
+    /// @param secondsPerMeasurement that each measurement of a rate takes at least
+    Replay(const RTKernel& kernel, const RayStream& stream, int threads, int inFlight,
+           double secondsPerMeasurement = SECONDS_PER_MEASUREMENT)
+        : kernel_(kernel),
+          stream_(stream),
+          threads_(threads),
+          inFlight_(inFlight),
+          secondsPerMeasurement_(secondsPerMeasurement) {}
 
-    /// All rates, then all answers. Takes about half a minute, longer where a sweep of the stream
-    /// takes longer than a second.
+    /// All rates, then all answers. Takes the time of about 25 measurements, longer where a sweep
+    /// of the stream takes longer than one of them should.
     ReplayResult run() const;
 
     ReplayAnswers compareAnswers() const;
@@ -80,6 +90,7 @@ class Replay {
     const RayStream& stream_;
     int threads_;
     int inFlight_;
+    double secondsPerMeasurement_;
 };
 
 /// In what way the kernel's answer to this question differs; nothing where it does not.

@@ -49,6 +49,7 @@ Json replayAsJson(const ReplayResult& replay) {
     counts["max_relative_distance_error"] = answers.maxRelativeDistanceError;
     Json json = {
         {"recorded_by", replay.recordedBy},
+        {"seconds_per_measurement", replay.secondsPerMeasurement},
         {"rays",
          {{"intersect", replay.counts.intersect}, {"visibility", replay.counts.visibility}}},
         {"intersect_per_second", replay.intersect.perSecond},

@@ -105,7 +105,8 @@ def test_help_names_the_kernel_and_every_option(program: Path, tmp_path: Path) -
     assert (result.returncode, result.stderr) == (0, '')
     assert program.name in result.stdout
     options = ['--batch', '--camera', '--threads', '--passes', '--size', '--seed', '--output',
-               '--report', '--view', '--in-flight', '--kernel-option', '--help', '--version']
+               '--report', '--view', '--in-flight', '--replay', '--replay-seconds', '--kernel-option',
+               '--help', '--version']
     assert [option for option in options if option not in result.stdout] == []
 
 

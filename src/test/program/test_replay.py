@@ -86,10 +86,15 @@ def test_a_recording_that_is_ended_keeps_what_it_has(program: Path, folder: Path
 
 @pytest.mark.parametrize('program', ['funky-kd'], indirect=True)
 def test_a_replay_reports_rates_and_answers(program: Path, recorded: Path) -> None:
-    result = replay(program, '--report', 'report.json', '--threads', '2', cwd=recorded)
-    assert (result.returncode, result.stderr) == (0, '')
+    result = replay(program, '--report', 'report.json', '--threads', '2', '--replay-seconds',
+                    '0.05', cwd=recorded)
+    assert result.returncode == 0
     report = read_report(recorded)
     figures = report['replay']
+    assert figures['seconds_per_measurement'] == 0.05
+    [warning] = report['warnings']
+    assert '0.05 s' in warning and 'first look' in warning
+    assert result.stderr == f'{program.name}: warning: {warning}\n'
     header, records = read_stream(recorded / 'box.rays')
     assert figures['rays'] == {'intersect': header['intersect'],
                                'visibility': header['visibility']}
@@ -106,6 +111,14 @@ def test_a_replay_reports_rates_and_answers(program: Path, recorded: Path) -> No
     assert report['average_intensity'] == [None] * 3 and report['passes'] == 0
     assert report['rays']['per_second'] == pytest.approx(figures['mixed_per_second'])
     assert 'replay.answers.missed           0\n' in result.stdout
+
+
+def test_a_measurement_takes_a_second_where_no_other_time_is_given(
+        program: Path, folder: Path) -> None:
+    render(program, folder, '--record', 'box.rays', '--rays', '1')
+    result = replay(program, '--report', 'report.json', cwd=folder)
+    assert (result.returncode, result.stderr) == (0, '')
+    assert read_report(folder)['replay']['seconds_per_measurement'] == 1
 
 
 def test_a_single_ray_is_asked_with_both_answers(program: Path, recorded: Path) -> None:
@@ -160,13 +173,27 @@ def test_a_missing_stream_is_refused(program: Path, folder: Path) -> None:
 
 
 @pytest.mark.parametrize('options', [
-    ('--rays', '10'), ('--only', '1'), ('--record', 'a', '--rays', '0'),
+    ('--rays', '10'), ('--only', '1'), ('--replay-seconds', '1'), ('--record', 'a', '--rays', '0'),
     ('--record', 'a', '--rays', 'x'), ('--record', 'a', '--view', 'normals'),
     ('--record', 'a', '--in-flight', '2'), ('--record', 'a', '--checkpoint', 'b'),
     ('--record', 'a', '--replay', 'b'), ('--replay', 'a', '--only', '-1'),
 ])
 def test_wrong_usage_of_streams(program: Path, folder: Path, options: tuple[str, ...]) -> None:
     assert '--' in refusal(program, folder, *options, status=2)
+
+
+@pytest.mark.parametrize('seconds', ['0', '-1', '0.0099', '3600.001', '1e9', 'nan', '-nan', 'inf',
+                                     'soon', '1s', ' 1', '0x1', '1,5', ''])
+def test_a_bad_time_of_measuring_is_wrong_usage(
+        program: Path, recorded: Path, seconds: str) -> None:
+    message = replay_refusal(program, recorded, '--replay-seconds', seconds, status=2)
+    assert '--replay-seconds' in message
+
+
+@pytest.mark.parametrize('seconds', ['0.01', '1e-2', '3600'])
+def test_the_ends_of_the_range_are_right_usage(program: Path, recorded: Path, seconds: str) -> None:
+    result = replay(program, '--replay-seconds', seconds, '--only', '0', cwd=recorded)
+    assert (result.returncode, result.stderr) == (0, '')
 
 
 def test_a_stream_that_cannot_be_written_is_told_before_rendering(

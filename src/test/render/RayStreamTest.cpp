@@ -215,6 +215,44 @@ TEST_P(Answers, AreAsFarOffAsTheirWorstDistance) {
     EXPECT_NEAR(answers.maxRelativeDistanceError, 0.25, 1e-6);
 }
 
+using Rates = Answers;
+
+TEST_P(Rates, AreMedianMeasurementsOfTheLengthThatWasAskedFor) {
+    const ReplayResult result = Replay(*kernel_, stream_, 2, GetParam(), 0.01).run();
+    EXPECT_EQ(result.secondsPerMeasurement, 0.01);
+    std::vector<Rate> rates = {result.intersect, result.visibility, result.mixed};
+    for (const BounceRate& bounce : result.byBounce)
+        rates.push_back(bounce.mixed);
+    for (const Rate& rate : rates) {
+        ASSERT_EQ(rate.measurements.size(), 3u);
+        std::vector<double> sorted = rate.measurements;
+        std::sort(sorted.begin(), sorted.end());
+        EXPECT_EQ(rate.perSecond, sorted[1]);
+        EXPECT_GT(rate.perSecond, 0);
+    }
+}
+
+TEST_P(Rates, AreMeasuredInWholeSweeps) {
+    std::erase_if(stream_.records, [](const RayRecord& record) { return record.bounce > 0; });
+    const auto isRay = [](const RayRecord& r) { return r.question == RayRecord::INTERSECT; };
+    const std::ptrdiff_t rays =
+        std::count_if(stream_.records.begin(), stream_.records.end(), isRay);
+    const auto segments = static_cast<std::ptrdiff_t>(stream_.records.size()) - rays;
+    ASSERT_GT(segments, 0);
+    Altered kernel(*kernel_);
+    std::ptrdiff_t raysAsked = 0, segmentsAsked = 0;
+    kernel.alterHit = [&](auto hit) { return ++raysAsked, hit; };
+    kernel.alterVisible = [&](bool visible) { return ++segmentsAsked, visible; };
+    Replay(kernel, stream_, 1, GetParam(), 0.01).run();
+    // One of h or V alone, two of both: warm-up and three measurements each. Then the answers.
+    EXPECT_GE(raysAsked, 13 * rays);
+    EXPECT_EQ(raysAsked % rays, 0);
+    EXPECT_GE(segmentsAsked, 13 * segments);
+    EXPECT_EQ(segmentsAsked % segments, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(InFlight, Rates, testing::Values(1, 16));
+
 INSTANTIATE_TEST_SUITE_P(InFlight, Answers, testing::Values(1, 16));
 
 }  // namespace
