@@ -1,53 +1,159 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-only
-"""Runs every kernel on every scene and prints a table; images and reports go to bench/results."""
+"""Measures ray tracing kernels on scenes, and typesets bench.pdf, bench.html and bench.csv."""
 
-import json
-import subprocess
+# A scene is a name in scenes/, a scene file, or a folder of scene files; each has a camera of the
+# same name beside it. A kernel is NAME or NAME:OPTION=VALUE,...; '*' stands for all others that are
+# built, but for the template.
+SCENES = ['cornell', 'conference', 'atrium', 'statue', 'forest', 'hairball', 'stadium']
+MORE_SCENES = ['$BWFIRT_SCENES']  # in a full run
+KERNELS = ['simple-bvh', 'funky-kd', '*']
+QUICK_KERNELS = ['simple-bvh', 'funky-kd', 'wide-bvh', 'embree']  # of these, those that are built
+CONTROL = 'funky-kd'  # is measured against itself, to learn the noise
+THREAD_SCALING = ['conference']  # scenes that are rendered with fewer threads, too
+GROWTH = 'forest'  # a standard scene that is made of ever more triangles
+
+import argparse
+import os
+import signal
 import sys
 from pathlib import Path
 
-KERNELS = ['simple-bvh', 'funky-kd']
-SCENES = ['cornell', 'conference', 'atrium', 'statue', 'forest', 'hairball', 'stadium']
-SIZE = '320x240'
-PASSES = 4
+try:
+    from compare import compare
+    from metrics import Measured
+    from plan import (RECORDER, ROOT, Extent, Plan, Scene, UsageError, built_kernels, find_kernels,
+                      find_scenes)
+    from report import ReportError, write_report
+    from results import ResultsError, read_results
+    from run import Limits, Measurement, remove
+except ModuleNotFoundError as missing:
+    sys.exit(f'bench.py: {missing.name} is missing: install the Debian package '
+             f'python3-{str(missing.name).lower()}')
 
-ROOT = Path(__file__).resolve().parent.parent
-RESULTS = ROOT / 'bench' / 'results'
-COLUMNS = ['scene', 'kernel', 'initialise s', 'render s', 'Mrays/s', 'kernel MB',
-           'average intensity']
-
-
-def run(kernel: str, scene: str) -> dict | None:
-    """The report of one run, None where it failed."""
-    base = RESULTS / f'{scene}-{kernel}'
-    command = [ROOT / 'build' / f'bwfirt-{kernel}', ROOT / 'scenes' / f'{scene}.scene', '--batch',
-               '--camera', ROOT / 'scenes' / f'{scene}.camera', '--size', SIZE,
-               '--passes', str(PASSES), '--output', base, '--report', f'{base}.json']
-    with open(f'{base}.txt', 'w', encoding='utf-8') as text:
-        status = subprocess.run(command, stdout=text, check=False).returncode
-    return json.loads(Path(f'{base}.json').read_text(encoding='utf-8')) if status == 0 else None
+FULL = Extent(size='640x480', passes=16, repeats=3, replay_rays=1000000, replay_seconds=1,
+              growth=(1000, 10000, 100000, 1000000, 10000000), time_limit=1800)
+QUICK = Extent(size='240x180', passes=4, repeats=2, replay_rays=50000, replay_seconds=0.05,
+               growth=(1000, 10000, 100000), time_limit=120)
+BENCH = ROOT / 'bench'
+DONE, FAILED, WRONG_USAGE = 0, 1, 2
 
 
-def row(kernel: str, scene: str, report: dict | None) -> list[str]:
-    if report is None:
-        return [scene, kernel, 'failed', '', '', '', '']
-    return [scene, kernel, f"{report['time']['initialize_s']:.3f}",
-            f"{report['time']['render_s']:.2f}", f"{report['rays']['per_second'] / 1e6:.3f}",
-            f"{report['memory']['kernel_final_bytes'] / 1e6:.1f}",
-            f"{report['average_intensity'][0]:.6f}"]
+def positive(kind: type) -> object:
+    def parse(text: str) -> float:
+        value = kind(text)
+        if not value > 0:
+            raise argparse.ArgumentTypeError(f'{text} is not above 0')
+        return value
+    parse.__name__ = 'number'  # what argparse calls a text that is none
+    return parse
+
+
+def names(text: str) -> list[str]:
+    return [name for name in text.split(',') if name]
+
+
+def parse_arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog='bench.py', description=__doc__, epilog='The lists of '
+                                     'scenes and kernels are at the beginning of bench/bench.py.')
+    add = parser.add_argument
+    whole = positive(int)
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument('--list', action='store_true', help='list scenes and kernels, and end')
+    what.add_argument('--dry-run', action='store_true', help='print the runs to be made, and end')
+    what.add_argument('--report-only', action='store_true',
+                      help='measure nothing; make the report of the results that there are')
+    what.add_argument('--compare', metavar='DIR', type=Path, help='measure nothing; compare the '
+                      'results with those in another folder: ratios, and whether they exceed the noise')
+    add('--quick', action='store_true', help='a small image, few kernels, short replays, 2 repeats')
+    add('--fresh', action='store_true', help='forget the results of these scenes and kernels first')
+    add('--scenes', metavar='A,B', type=names, help='names, scene files, or folders of them')
+    add('--kernels', metavar='A,B', type=names, action='append',
+        help="NAME or NAME:OPTION=VALUE; '*' for all others")
+    add('--repeats', metavar='N', type=whole, help='of each run, default 3')
+    add('--threads', metavar='N', type=whole, help='default: all that may be used')
+    add('--passes', metavar='N', type=whole, help='samples per pixel, default 16')
+    add('--size', metavar='WxH', help='of the image, default 640x480')
+    add('--time-limit', metavar='SECONDS', type=positive(float), help='of one run, default 1800')
+    add('--memory-limit', metavar='GB', type=positive(float), help="of one run's address space, "
+        'default 0.9 times the memory of the machine')
+    add('--results', metavar='DIR', type=Path,
+        help='folder of results, default bench/results, or its folder quick')
+    add('--output', metavar='BASE', type=Path, default=BENCH / 'bench',
+        help='BASE.pdf, BASE.html and BASE.csv, default bench/bench')
+    add('--build', metavar='DIR', type=Path, default=ROOT / 'build', help='where the kernels are')
+    return parser.parse_args()
+
+
+def extent_of(arguments: argparse.Namespace) -> Extent:
+    base = QUICK if arguments.quick else FULL
+    given = {key: value for key in ['repeats', 'passes', 'size', 'time_limit']
+             if (value := getattr(arguments, key))}
+    return Extent(**{**vars(base), **given})
+
+
+def plan_of(arguments: argparse.Namespace, results: Path) -> Plan:
+    """@throws UsageError for names that fit nothing"""
+    build = arguments.build.absolute()
+    built = built_kernels(build)
+    chosen = [name for part in arguments.kernels or [] for name in part]
+    quick = [name for name in QUICK_KERNELS if name in built]
+    kernels = find_kernels(chosen or (quick if arguments.quick else KERNELS), build)
+    standard = SCENES if arguments.quick else SCENES + MORE_SCENES
+    scenes = find_scenes(arguments.scenes or standard)
+    extent = extent_of(arguments)
+    threads = len(os.sched_getaffinity(0))
+    growth = [Scene(f'{GROWTH}@{scale:g}', results / 'scenes' / f'{GROWTH}-{scale}.scene',
+                    ROOT / 'scenes' / f'{GROWTH}.camera', scale) for scale in extent.growth]
+    recorder = find_kernels([RECORDER], build)[0] if RECORDER in built else None
+    return Plan(scenes, kernels, CONTROL, [] if arguments.scenes else growth, THREAD_SCALING,
+                arguments.threads or threads, extent, recorder)
+
+
+def show(plan: Plan) -> None:
+    for scene in plan.scenes + plan.growth:
+        print(f'scene   {scene.name}: {scene.file}')
+    for kernel in plan.kernels:
+        print(f'kernel  {kernel.name}: {kernel.program}')
 
 
 def main() -> int:
-    RESULTS.mkdir(exist_ok=True)
-    reports = {(scene, kernel): run(kernel, scene) for scene in SCENES for kernel in KERNELS}
-    table = [COLUMNS] + [row(kernel, scene, report) for (scene, kernel), report in reports.items()]
-    widths = [max(len(line[i]) for line in table) for i in range(len(COLUMNS))]
-    for line in table:
-        print('  '.join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip())
-    print(f'images and reports are in {RESULTS}')
-    return 1 if None in reports.values() else 0
+    arguments = parse_arguments()
+    results = arguments.results or BENCH / 'results' / ('quick' if arguments.quick else 'full')
+    if arguments.compare:
+        print(compare(Measured(read_results(results)), Measured(read_results(arguments.compare))))
+        return DONE
+    selected = None
+    if not arguments.report_only:
+        plan = plan_of(arguments, results)
+        if arguments.list:
+            show(plan)
+            return DONE
+        memory = arguments.memory_limit or 0.9e-9 * os.sysconf('SC_PAGE_SIZE') * os.sysconf('SC_PHYS_PAGES')
+        measurement = Measurement(plan, results, Limits(plan.extent.time_limit, int(memory * 1e9)),
+                                  sys.argv[1:])
+        if arguments.dry_run:
+            for run in measurement.missing():
+                print(' '.join(measurement.command(run, results / run.name)))
+            return DONE
+        if arguments.fresh:
+            remove(plan, results)
+        measurement.measure(lambda line: print(line, flush=True))
+        selected = plan.names()
+    measured = Measured(read_results(results), selected)
+    for path in write_report(measured, arguments.output):
+        print(path)
+    return DONE if any(result.done for result in measured.results) else FAILED
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        sys.exit('bench.py: interrupted; the results so far are kept')
+    except UsageError as error:
+        print(f'bench.py: {error}', file=sys.stderr)
+        sys.exit(WRONG_USAGE)
+    except (ReportError, ResultsError, OSError) as error:
+        sys.exit(f'bench.py: {error}')

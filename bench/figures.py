@@ -1,0 +1,377 @@
+# SPDX-License-Identifier: GPL-3.0-only
+"""The graphs of the report, one function each. A function returns None where nothing was measured."""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+
+import matplotlib
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+
+from metrics import (BYTES_PER_TRIANGLE, FINAL, INITIALIZE, PEAK, RATE, RATE_H, RATE_MIXED, RATE_V,
+                     SQUARED_ERROR, TOTAL, Measured, Metric, Spread)
+
+matplotlib.use('Agg')
+matplotlib.rcParams.update({
+    'font.family': 'serif', 'font.serif': ['STIXGeneral'], 'mathtext.fontset': 'stix',
+    'font.size': 9, 'axes.titlesize': 9, 'axes.labelsize': 9, 'legend.fontsize': 8,
+    'xtick.labelsize': 8, 'ytick.labelsize': 8, 'text.parse_math': False,
+    'ps.fonttype': 42, 'svg.hashsalt': 'bwfirt', 'svg.fonttype': 'path',
+    'axes.spines.top': False, 'axes.spines.right': False, 'legend.frameon': False,
+    'hatch.linewidth': 0.5, 'figure.constrained_layout.use': True,
+})
+WIDTH = 3.35  # inches, half the width of the text
+
+# Okabe and Ito's colours, which colour-blind people tell apart, in an order in which neighbours
+# differ in grey, too. Markers, lines and hatches tell apart what is left.
+COLOURS = ['#0072B2', '#E69F00', '#009E73', '#F0E442', '#D55E00', '#56B4E9', '#CC79A7', '#777777']
+HATCHES = ['', '////', '....', 'xxxx', '\\\\\\\\', '++++', 'oooo', '----']
+MARKERS = 'osD^vP*X'
+LINES = ['-', '--', '-.', ':', (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), (0, (7, 3))]
+DARK = '#333333'
+ERROR_BARS = {'ecolor': 'black', 'error_kw': {'elinewidth': 0.8, 'capsize': 2, 'capthick': 0.8}}
+
+
+def short(x: float) -> str:
+    """Three significant digits, without an exponent where that is short."""
+    if x == 0:
+        return '0'
+    if not 1e-3 <= abs(x) < 1e6:
+        return f'{x:.2g}'
+    return f'{x:.3g}' if abs(x) < 1000 else f'{x:.0f}'
+
+
+def si(x: float, _: object = None) -> str:
+    """1000 as 1k and so on."""
+    for factor, letter in [(1e12, 'T'), (1e9, 'G'), (1e6, 'M'), (1e3, 'k')]:
+        if abs(x) >= factor:
+            return f'{x / factor:.3g}{letter}'
+    return f'{x:.3g}'
+
+
+def names_errors(measured: Measured, scene: str, kernel: str) -> str:
+    """The kernel's name, and its errors where its answers are wrong."""
+    wrong = measured.wrong_per_million(scene, kernel)
+    return f'{kernel}\n({si(wrong)} wrong ppm)' if wrong else kernel
+
+
+def range_of(spread: Spread) -> list[list[float]]:
+    """From the median down to the lowest and up to the highest, as matplotlib takes it."""
+    return [[spread.median - spread.lowest], [spread.highest - spread.median]]
+
+
+# ---- Of one scene -------------------------------------------------------------------------------
+
+
+def _bars(axes: Axes, measured: Measured, scene: str, metric: Metric, below: Metric | None,
+          text: Callable[[str, Spread], str]) -> None:
+    """A bar for each kernel, with its range, its value and the kernel's name.
+
+    @param below a metric that is a part of the other one, and is drawn dark
+    """
+    kernels = [k for k in measured.kernels if measured.spread(metric, scene, k)]
+    for place, kernel in enumerate(kernels):
+        spread = measured.spread(metric, scene, kernel)
+        assert spread
+        index = measured.kernels.index(kernel) % len(COLOURS)
+        axes.barh(place, spread.median, height=0.7, color=COLOURS[index], hatch=HATCHES[index],
+                  edgecolor='black', linewidth=0.5, xerr=range_of(spread), **ERROR_BARS)
+        if below:
+            axes.barh(place, measured.median(below, scene, kernel), height=0.7, color=DARK)
+        axes.annotate(text(kernel, spread), (spread.highest, place), xytext=(4, 0),
+                      textcoords='offset points', va='center', fontsize=8)
+    axes.set_yticks(range(len(kernels)), [names_errors(measured, scene, k) for k in kernels])
+    axes.set_ylim(len(kernels) - 0.4, -0.6)
+    axes.xaxis.set_major_locator(MaxNLocator(5))
+
+
+def _bar_chart(measured: Measured, scene: str, metrics: Sequence[Metric], title: str, unit: str,
+               below: Metric | None = None,
+               text: Callable[[str, Spread], str] = lambda _, spread: short(spread.median)
+               ) -> Figure | None:
+    shown = [metric for metric in metrics
+             if any(measured.spread(metric, scene, kernel) for kernel in measured.kernels)]
+    if not shown:
+        return None
+    bars = sum(1 for metric in shown for kernel in measured.kernels
+               if measured.spread(metric, scene, kernel))
+    figure = Figure(figsize=(WIDTH, 0.62 + 0.2 * len(shown) + 0.21 * bars))
+    all_axes = figure.subplots(len(shown), sharex=True, squeeze=False)[:, 0]
+    for axes, metric in zip(all_axes, shown):
+        _bars(axes, measured, scene, metric, below, text)
+        if len(metrics) > 1:
+            axes.set_title(metric.name, loc='left', fontsize=8, style='italic', pad=2)
+    highest = max(spread.highest for metric in shown for kernel in measured.kernels
+                  if (spread := measured.spread(metric, scene, kernel)))
+    axes.set_xlim(0, 1.25 * highest or 1)  # with room for the values
+    axes.set_xlabel(unit)
+    figure.suptitle(title, fontsize=9, fontweight='bold')
+    return figure
+
+
+def total_time(measured: Measured, scene: str) -> Figure | None:
+    return _bar_chart(measured, scene, [TOTAL], 'Total running time',
+                      'seconds (dark: of these, initialisation)', below=INITIALIZE)
+
+
+def ray_rates(measured: Measured, scene: str) -> Figure | None:
+    return _bar_chart(measured, scene, [RATE, RATE_H, RATE_V, RATE_MIXED], 'Rays per second',
+                      'million per second')
+
+
+def memory(measured: Measured, scene: str) -> Figure | None:
+    def text(kernel: str, spread: Spread) -> str:
+        report = measured.first(scene, kernel)
+        assert report
+        per_triangle = 1e6 * spread.median / report.report['triangles']
+        return f'{short(spread.median)} ({short(per_triangle)} B/tri.)'
+    figure = _bar_chart(measured, scene, [PEAK, FINAL], 'Memory of the kernel',
+                        'MB = 10\u2076 bytes (and bytes per triangle)', text=text)
+    if figure:
+        axes = figure.axes[0]
+        axes.set_xlim(0, 1.35 * axes.get_xlim()[1])
+    return figure
+
+
+def numerical_comparison(measured: Measured, scene: str) -> Figure | None:
+    """Beside the squared error that the finite number of passes alone makes likely."""
+    kernels = [k for k in measured.kernels if measured.first(scene, k)]
+    if not kernels:
+        return None
+    runs = [run for k in kernels if (run := measured.first(scene, k))]
+    figure = Figure(figsize=(WIDTH, 0.85 + 0.21 * len(kernels)))
+    axes = figure.subplots()
+    values = [SQUARED_ERROR.samples(run.report)[0] for run in runs]
+    variances = [sum(x * x for x in run.report['standard_error'] if x is not None) for run in runs]
+    lowest = min([x for x in [*values, *variances] if x > 0], default=1e-12)
+    highest = max([x for x in [*values, *variances] if x > 0], default=1)
+    for place, (kernel, value) in enumerate(zip(kernels, values)):
+        index = measured.kernels.index(kernel) % len(COLOURS)
+        axes.plot(max(value, lowest / 3), place, MARKERS[index], color=COLOURS[index],
+                  markeredgecolor='black', markeredgewidth=0.5)
+        axes.annotate(f'{value:.3g}', (max(value, lowest / 3), place), xytext=(6, 0),
+                      textcoords='offset points', va='center', fontsize=8)
+    if variances[0] > 0 and runs[0].report['reference_average_intensity']:
+        axes.axvline(variances[0], color='black', linestyle='--', linewidth=0.8)
+    axes.set_xscale('log')
+    axes.set_xlim(lowest / 10, highest * 300)
+    axes.xaxis.set_major_locator(LogLocator(numticks=6))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.set_yticks(range(len(kernels)), [names_errors(measured, scene, k) for k in kernels])
+    axes.set_ylim(len(kernels) - 0.4, -0.6)
+    axes.grid(axis='x', linewidth=0.3)
+    if runs[0].report['reference_average_intensity']:
+        axes.set_xlabel('|average intensity − reference|² (dashed: its variance)')
+    else:
+        axes.set_xlabel('|average intensity|², for want of a reference')
+    figure.suptitle('Numerical comparison', fontsize=9, fontweight='bold')
+    return figure
+
+
+SCENE_FIGURES: dict[str, Callable[[Measured, str], Figure | None]] = {
+    'total-time': total_time, 'ray-rates': ray_rates, 'memory': memory,
+    'numerical-comparison': numerical_comparison}
+
+# ---- Over all scenes ----------------------------------------------------------------------------
+
+
+def relative(measured: Measured) -> Figure | None:
+    """Geometric means over the scenes, by the reference kernel."""
+    metrics = [TOTAL, INITIALIZE, RATE, RATE_H, RATE_V, RATE_MIXED, PEAK, FINAL]
+    shown = [metric for metric in metrics
+             if any(measured.relative(metric, kernel) for kernel in measured.kernels)]
+    if not shown or len(measured.kernels) < 2:
+        return None
+    figure = Figure(figsize=(2 * WIDTH, 0.5 + (0.32 + 0.19 * len(measured.kernels)) *
+                             math.ceil(len(shown) / 2)))
+    all_axes = figure.subplots(math.ceil(len(shown) / 2), 2, squeeze=False).flat
+    for axes, metric in zip(all_axes, shown):
+        means = [(kernel, mean[0]) for kernel in measured.kernels
+                 if (mean := measured.relative(metric, kernel))]
+        for place, (kernel, mean) in enumerate(means):
+            index = measured.kernels.index(kernel) % len(COLOURS)
+            axes.barh(place, mean, height=0.7, color=COLOURS[index], hatch=HATCHES[index],
+                      edgecolor='black', linewidth=0.5)
+            axes.annotate(short(mean), (mean, place), xytext=(4, 0), textcoords='offset points',
+                          va='center', fontsize=8)
+        axes.axvline(1, color='black', linewidth=0.8, linestyle='--')
+        axes.set_yticks(range(len(means)), [kernel for kernel, _ in means])
+        axes.set_ylim(len(means) - 0.4, -0.6)
+        axes.set_xlim(0, 1.2 * max(1, *(mean for _, mean in means)))
+        better = {'up': 'more is better', 'down': 'less is better'}[metric.better]
+        axes.set_title(f'{metric.name} ({better})', loc='left', fontsize=8, style='italic', pad=2)
+    for axes in list(all_axes)[len(shown):]:
+        axes.set_axis_off()
+    figure.suptitle(f'Geometric means over all scenes, relative to {measured.reference}',
+                    fontsize=9, fontweight='bold')
+    return figure
+
+
+def _curves(axes: Axes, measured: Measured,
+            curve: Callable[[str], list[tuple[float, Spread]]]) -> bool:
+    """A line a kernel through its medians, with ranges. Returns whether there is one."""
+    drawn = False
+    for number, kernel in enumerate(measured.kernels):
+        points = curve(kernel)
+        if not points:
+            continue
+        index = number % len(COLOURS)
+        spreads = [spread for _, spread in points]
+        ranges = [[s.median - s.lowest for s in spreads], [s.highest - s.median for s in spreads]]
+        axes.errorbar([x for x, _ in points], [s.median for s in spreads], yerr=ranges,
+                      color=COLOURS[index], marker=MARKERS[index], linestyle=LINES[index],
+                      markeredgecolor='black', markeredgewidth=0.5, markersize=5, linewidth=1.2,
+                      ecolor='black', elinewidth=0.8, capsize=2, label=kernel)
+        drawn = True
+    axes.grid(linewidth=0.3)
+    return drawn
+
+
+def _legend(figure: Figure) -> None:
+    """Below the figure, whose bounding box has to grow by it."""
+    handles, labels = figure.axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc='upper center', bbox_to_anchor=(0.5, 0), ncol=4)
+
+
+def speed_against_memory(measured: Measured) -> Figure | None:
+    """Geometric means, by the reference kernel."""
+    figure = Figure(figsize=(WIDTH, 2.6))
+    axes = figure.subplots()
+    points = [(kernel, memory[0], speed[0]) for kernel in measured.kernels
+              if (memory := measured.relative(FINAL, kernel))
+              and (speed := measured.relative(RATE, kernel))]
+    if len(points) < 2:
+        return None
+    for kernel, x, y in points:
+        index = measured.kernels.index(kernel) % len(COLOURS)
+        axes.plot(x, y, MARKERS[index], color=COLOURS[index], markeredgecolor='black',
+                  markeredgewidth=0.5, markersize=7)
+        axes.annotate(kernel, (x, y), xytext=(0, 7), textcoords='offset points', ha='center',
+                      fontsize=8)
+    for set_scale, axis in [(axes.set_xscale, axes.xaxis), (axes.set_yscale, axes.yaxis)]:
+        set_scale('log')
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f'{value:g}'))
+        axis.set_minor_formatter(NullFormatter())
+    axes.margins(0.25)
+    axes.grid(linewidth=0.3)
+    axes.set_xlabel(f'final memory, {measured.reference} = 1')
+    axes.set_ylabel(f'rays per second, {measured.reference} = 1')
+    figure.suptitle('Speed against memory', fontsize=9, fontweight='bold')
+    return figure
+
+
+def thread_scaling(measured: Measured) -> Figure | None:
+    """Rays per second with more threads, by those of one."""
+    scenes = [scene for scene in measured.scenes if any(
+        measured.by_threads(RATE, scene, kernel).keys() - {measured.threads}
+        for kernel in measured.kernels)]
+    if not scenes:
+        return None
+    figure = Figure(figsize=(WIDTH, 2.2 * len(scenes) + 0.4))
+    all_axes = figure.subplots(len(scenes), squeeze=False)[:, 0]
+    for axes, scene in zip(all_axes, scenes):
+        def curve(kernel: str, scene: str = scene) -> list[tuple[float, Spread]]:
+            rates = measured.by_threads(RATE, scene, kernel)
+            if 1 not in rates:
+                return []
+            one = rates[1].median
+            return [(n, Spread(tuple(x / one for x in spread.samples)))
+                    for n, spread in sorted(rates.items())]
+        _curves(axes, measured, curve)
+        most = measured.threads
+        axes.plot([1, most], [1, most], color='black', linewidth=0.6)
+        axes.annotate('ideal', (most, most), xytext=(-4, 0), textcoords='offset points',
+                      ha='right', fontsize=8)
+        axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+        axes.set_ylim(bottom=0)
+        axes.set_title(scene, loc='left', fontsize=8, style='italic', pad=2)
+        axes.set_ylabel('speed-up of rays per second')
+    axes.set_xlabel('threads')
+    _legend(figure)
+    figure.suptitle('Thread scaling', fontsize=9, fontweight='bold')
+    return figure
+
+
+def growth(measured: Measured) -> Figure | None:
+    """What becomes of a kernel as a scene grows."""
+    metrics = [RATE, INITIALIZE, BYTES_PER_TRIANGLE]
+    figure = Figure(figsize=(2 * WIDTH, 2.5))
+    drawn = False
+    for axes, metric in zip(figure.subplots(1, len(metrics)), metrics):
+        drawn |= _curves(axes, measured, lambda kernel, metric=metric:
+                         measured.by_triangles(metric, kernel))
+        axes.set_xscale('log')
+        axes.set_yscale('log')
+        axes.xaxis.set_major_formatter(FuncFormatter(si))
+        axes.xaxis.set_minor_formatter(NullFormatter())
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f'{value:g}'))
+        axes.yaxis.set_minor_formatter(NullFormatter())
+        if metric is BYTES_PER_TRIANGLE:
+            axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.set_xlabel('triangles')
+        axes.set_title(f'{metric.name}, {metric.unit}', fontsize=8, style='italic')
+    if not drawn:
+        return None
+    _legend(figure)
+    figure.suptitle(f'Growth with the size of a scene ({measured.growth_scene})', fontsize=9,
+                    fontweight='bold')
+    return figure
+
+
+def break_even(measured: Measured) -> Figure | None:
+    """Time that kernels take for n rays, building included, by that of the fastest one for n."""
+    scenes = [scene for scene in measured.scenes
+              if sum(measured.first(scene, kernel) is not None for kernel in measured.kernels) > 1]
+    if not scenes:
+        return None
+    columns = min(3, len(scenes))
+    rows = math.ceil(len(scenes) / columns)
+    figure = Figure(figsize=(2 * WIDTH, 0.6 + 1.45 * rows))
+    all_axes = list(figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).flat)
+    counts = [10**(3 + 0.1 * step) for step in range(71)]
+    for axes, scene in zip(all_axes, scenes):
+        def seconds(kernel: str, n: float, scene: str = scene) -> float:
+            return (measured.median(INITIALIZE, scene, kernel) +
+                    n / 1e6 / measured.median(RATE, scene, kernel))
+        known = [kernel for kernel in measured.kernels if measured.first(scene, kernel)
+                 and math.isfinite(seconds(kernel, 1))]
+        fastest = [min(seconds(kernel, n) for kernel in known) for n in counts]
+        for kernel in known:
+            index = measured.kernels.index(kernel) % len(COLOURS)
+            axes.plot(counts, [seconds(kernel, n) / best for n, best in zip(counts, fastest)],
+                      color=COLOURS[index], linestyle=LINES[index], linewidth=1.4, label=kernel)
+        axes.set_xscale('log')
+        axes.set_yscale('log')
+        axes.set_title(scene, loc='left', fontsize=8, style='italic', pad=2)
+        axes.grid(linewidth=0.3)
+        axes.xaxis.set_major_locator(LogLocator(numticks=5))
+        axes.xaxis.set_major_formatter(FuncFormatter(si))
+        axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f'{value:g}'))
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_minor_formatter(NullFormatter())
+    for axes in all_axes[len(scenes):]:
+        axes.set_axis_off()
+    _legend(figure)
+    figure.supxlabel('rays traced', fontsize=9)
+    figure.supylabel('time, fastest = 1', fontsize=9)
+    figure.suptitle('Break-even between building and tracing', fontsize=9, fontweight='bold')
+    return figure
+
+
+OVERALL_FIGURES: dict[str, Callable[[Measured], Figure | None]] = {
+    'relative': relative, 'speed-against-memory': speed_against_memory,
+    'thread-scaling': thread_scaling, 'growth': growth, 'break-even': break_even}
+
+
+def draw_all(measured: Measured) -> Iterator[tuple[str, Figure]]:
+    """All figures under names that are unique and fit for files: those of scene N begin with N."""
+    for number, scene in enumerate(measured.scenes):
+        for name, draw in SCENE_FIGURES.items():
+            if figure := draw(measured, scene):
+                yield f'{number}-{name}', figure
+    for name, draw_overall in OVERALL_FIGURES.items():
+        if figure := draw_overall(measured):
+            yield name, figure

@@ -1,0 +1,241 @@
+# SPDX-License-Identifier: GPL-3.0-only
+"""The figures that kernels are compared by, and their statistics over repeated runs."""
+
+import math
+import statistics
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from plan import CONTROL, RECORD, RENDER, REPLAY
+from results import Result
+
+Report = dict[str, Any]
+REFERENCE = 'funky-kd'  # that others are measured by in means over scenes
+WRONG_ANSWERS = ['missed', 'ghost', 'wrong_triangle', 'false_visible', 'false_occluded']
+ANSWERS = [*WRONG_ANSWERS, 'tie']
+
+
+@dataclass(frozen=True)
+class Metric:
+    """A figure of a run."""
+
+    key: str
+    name: str
+    unit: str
+    better: str  # 'up' or 'down'
+    kind: str  # of the run that it is taken from: plan.RENDER or REPLAY
+    samples: Callable[[Report], list[float]]  # one or several measurements of a report
+    is_exact: bool = False  # the same in each run, so that each difference is one
+
+
+def replayed(rate: str) -> Callable[[Report], list[float]]:
+    return lambda report: [x / 1e6 for x in report['replay']['measurements'][f'{rate}_per_second']]
+
+
+def megabytes(key: str) -> Callable[[Report], list[float]]:
+    return lambda report: [report['memory'][key] / 1e6]
+
+
+TOTAL = Metric('total', 'Total running time', 's', 'down', RENDER,
+               lambda report: [report['time']['total_s']])
+INITIALIZE = Metric('initialize', 'Initialisation', 's', 'down', RENDER,
+                    lambda report: [report['time']['initialize_s']])
+RENDERING = Metric('render', 'Rendering', 's', 'down', RENDER,
+                   lambda report: [report['time']['render_s']])
+RATE = Metric('rate', 'Rays, gross', 'Mrays/s', 'up', RENDER,
+              lambda report: [report['rays']['per_second'] / 1e6])
+RATE_H = Metric('h', 'h, replayed', 'Mrays/s', 'up', REPLAY, replayed('intersect'))
+RATE_V = Metric('V', 'V, replayed', 'Mrays/s', 'up', REPLAY, replayed('visibility'))
+RATE_MIXED = Metric('mixed', 'h and V, replayed', 'Mrays/s', 'up', REPLAY, replayed('mixed'))
+PEAK = Metric('peak', 'Kernel memory, peak', 'MB', 'down', RENDER,
+              megabytes('kernel_peak_bytes'), is_exact=True)
+FINAL = Metric('final', 'Kernel memory, final', 'MB', 'down', RENDER,
+               megabytes('kernel_final_bytes'), is_exact=True)
+BYTES_PER_TRIANGLE = Metric(
+    'bytes_per_triangle', 'Final memory per triangle', 'bytes', 'down', RENDER,
+    lambda report: [report['memory']['kernel_final_bytes'] / report['triangles']], is_exact=True)
+SQUARED_ERROR = Metric('squared_error', 'Squared error of the average intensity', '', 'down',
+                       RENDER, lambda report: [report['squared_error']], is_exact=True)
+METRICS = [TOTAL, INITIALIZE, RENDERING, RATE, RATE_H, RATE_V, RATE_MIXED, PEAK, FINAL,
+           BYTES_PER_TRIANGLE, SQUARED_ERROR]
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Of repeated measurements of one figure."""
+
+    samples: tuple[float, ...]
+
+    @property
+    def median(self) -> float:
+        return statistics.median(self.samples)
+
+    @property
+    def lowest(self) -> float:
+        return min(self.samples)
+
+    @property
+    def highest(self) -> float:
+        return max(self.samples)
+
+    @property
+    def relative_range(self) -> float:
+        """(highest - lowest) / median, 0 where all are 0."""
+        return (self.highest - self.lowest) / self.median if self.median else 0
+
+
+class Measured:
+    """The results of a benchmark, to be asked by scene and kernel."""
+
+    def __init__(self, results: Iterable[Result],
+                 names: set[tuple[str, str]] | None = None) -> None:
+        """@param names of scene and kernel: the only ones to be taken"""
+        self.results = [result for result in results
+                        if names is None or (result.scene, result.kernel) in names]
+        main = [result for result in self.results if result.bench['scale'] is None]
+        self.scenes = list(dict.fromkeys(result.scene for result in main))
+        self.growth_scene = next((result.scene.partition('@')[0] for result in self.results
+                                  if result.bench['scale']), '')
+        self.kernels = list(dict.fromkeys(result.kernel for result in self.results
+                                          if result.kind in (RENDER, REPLAY)))
+        self.threads = max((result.fingerprint['threads'] for result in main
+                            if 'threads' in result.fingerprint), default=0)
+        self.reference = REFERENCE if REFERENCE in self.kernels else next(iter(self.kernels), '')
+
+    def runs(self, scene: str, kernel: str, kind: str = RENDER) -> list[Result]:
+        """Of one kernel on one scene, with as many threads as the benchmark uses, done or not."""
+        return [result for result in self.results
+                if (result.scene, result.kernel, result.kind) == (scene, kernel, kind)
+                and result.threads in (self.threads, 1 if kind == RECORD else None)]
+
+    def first(self, scene: str, kernel: str, kind: str = RENDER) -> Result | None:
+        """The first of these runs that is done."""
+        return next((result for result in self.runs(scene, kernel, kind) if result.done), None)
+
+    def spread(self, metric: Metric, scene: str, kernel: str,
+               kind: str | None = None) -> Spread | None:
+        """None where there is no measurement, as in a run that failed once.
+
+        A kernel that fails in one of its repeats has no figures.
+        """
+        return spread_of(metric, self.runs(scene, kernel, kind or metric.kind))
+
+    def median(self, metric: Metric, scene: str, kernel: str) -> float:
+        """NaN where there is no measurement."""
+        spread = self.spread(metric, scene, kernel)
+        return spread.median if spread else math.nan
+
+    def by_threads(self, metric: Metric, scene: str, kernel: str) -> dict[int, Spread]:
+        """A figure for each number of threads."""
+        runs = [result for result in self.results
+                if (result.scene, result.kernel, result.kind) == (scene, kernel, RENDER)]
+        spreads = {n: spread_of(metric, [run for run in runs if run.threads == n])
+                   for n in sorted({run.threads for run in runs})}
+        return {n: spread for n, spread in spreads.items() if spread}
+
+    def by_triangles(self, metric: Metric, kernel: str) -> list[tuple[float, Spread]]:
+        """A figure for each size of the scene that is made for growth curves: triangles, figure."""
+        runs: dict[str, list[Result]] = {}
+        for result in self.results:
+            if result.kernel == kernel and result.bench['scale']:
+                runs.setdefault(result.scene, []).append(result)
+        return sorted(((of_one[0].report['triangles'], spread) for of_one in runs.values()
+                       if (spread := spread_of(metric, of_one))), key=lambda point: point[0])
+
+    def wrong_per_million(self, scene: str, kernel: str) -> float | None:
+        """Wrong answers in a million questions of the scene's ray stream; None if not replayed."""
+        replay = self.first(scene, kernel, REPLAY)
+        if replay is None:
+            return None
+        counts = replay.report['replay']['answers_per_million']
+        return sum(counts[name] for name in WRONG_ANSWERS)
+
+    def noise(self, metric: Metric) -> float | None:
+        """How far a kernel may differ from itself: the largest |ratio of medians - 1| over scenes.
+
+        The ratio is that of the control to the same kernel, both measured in the same turns. None
+        without a control, 0 for what is exact.
+        """
+        if metric.is_exact:
+            return 0
+        controls = {(result.scene, result.kernel) for result in self.results
+                    if result.kind == CONTROL}
+        ratios = [self.control_ratio(metric, scene, kernel) for scene, kernel in controls]
+        known = [abs(math.log(ratio)) for ratio in ratios if ratio is not None]
+        return math.expm1(max(known)) if known else None
+
+    def control_ratio(self, metric: Metric, scene: str, kernel: str) -> float | None:
+        """The control's median by that of the kernel itself."""
+        if metric.kind != RENDER:
+            return None
+        itself = self.spread(metric, scene, kernel)
+        control = self.spread(metric, scene, kernel, CONTROL)
+        if not itself or not control or not itself.median * control.median > 0:
+            return None
+        return control.median / itself.median
+
+    def is_equal(self, metric: Metric, scene: str, kernel: str, other: str) -> bool:
+        """Whether two kernels cannot be told apart.
+
+        They can if their ranges do not overlap and their medians differ by more than the noise.
+        """
+        a, b = self.spread(metric, scene, kernel), self.spread(metric, scene, other)
+        if not a or not b:
+            return False
+        return are_equal(a, b, self.noise(metric) or 0)
+
+    def best(self, metric: Metric, scene: str) -> list[str]:
+        """The kernels that none is better than, of those that answer rightly."""
+        right = [kernel for kernel in self.kernels if self.spread(metric, scene, kernel)
+                 and not self.wrong_per_million(scene, kernel)]
+        if not right:
+            return []
+        choose = max if metric.better == 'up' else min
+        best = choose(right, key=lambda kernel: self.median(metric, scene, kernel))
+        return [kernel for kernel in right
+                if kernel == best or self.is_equal(metric, scene, kernel, best)]
+
+    def relative(self, metric: Metric, kernel: str) -> tuple[float, int] | None:
+        """The geometric mean of a kernel's figures by those of the reference, and how many scenes.
+
+        Over the scenes where both have one and the kernel answers rightly. None where there is none.
+        """
+        pairs = [(self.median(metric, scene, kernel), self.median(metric, scene, self.reference))
+                 for scene in self.scenes if not self.wrong_per_million(scene, kernel)]
+        ratios = [a / b for a, b in pairs if a > 0 and b > 0]
+        return (statistics.geometric_mean(ratios), len(ratios)) if ratios else None
+
+    def ahead(self, scene: str, kernel: str, other: str) -> tuple[float, float] | None:
+        """For how many rays, from and to, a kernel is done before another, building included.
+
+        Its time for n rays is initialize + n / rate. (0, inf): always; (inf, inf): never. None
+        where one of them has no figures.
+        """
+        build, rate = (self.median(metric, scene, kernel) for metric in (INITIALIZE, RATE))
+        other_build, other_rate = (self.median(metric, scene, other)
+                                   for metric in (INITIALIZE, RATE))
+        if not all(map(math.isfinite, [build, rate, other_build, other_rate])):
+            return None
+        if build <= other_build and rate >= other_rate:
+            return 0, math.inf
+        if build >= other_build and rate <= other_rate:
+            return math.inf, math.inf
+        crossing = 1e6 * (build - other_build) / (1 / other_rate - 1 / rate)
+        return (crossing, math.inf) if rate > other_rate else (0, crossing)
+
+
+def spread_of(metric: Metric, runs: list[Result]) -> Spread | None:
+    """None where there is no run, or one that failed."""
+    if not runs or not all(result.done for result in runs):
+        return None
+    return Spread(tuple(x for result in runs for x in metric.samples(result.report)))
+
+
+def are_equal(a: Spread, b: Spread, noise: float) -> bool:
+    """Whether ranges overlap, or medians differ by no more than the noise, relatively."""
+    overlap = a.lowest <= b.highest and b.lowest <= a.highest
+    if overlap or a.median == b.median:
+        return True
+    larger, smaller = max(a.median, b.median), min(a.median, b.median)
+    return smaller > 0 and larger / smaller - 1 <= noise

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-only
+"""Images of kernels beside each other."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import imageio
+import numpy as np
+from numpy.typing import NDArray
+
+BRIGHTEST = 0.5  # of a difference image, in linear intensity
+
+
+@dataclass(frozen=True)
+class Difference:
+    """How an image differs from the one that it is compared with."""
+
+    pixels: int  # that differ at all
+    of: int  # pixels in the image
+    largest: float  # absolute difference of a channel, linear
+    factor: float  # by which the difference image is brighter than the difference, a power of two
+
+
+def read_linear(path: Path) -> NDArray[np.float32]:
+    """The RGB values of an OpenEXR file, as (height, width, 3)."""
+    return np.asarray(imageio.imread(path, format='EXR-FI'))[..., :3]
+
+
+def to_srgb(linear: NDArray[np.float32]) -> NDArray[np.uint8]:
+    """IEC 61966-2-1, clipped to [0, 1]."""
+    x = np.clip(linear, 0, 1)
+    encoded = np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
+    return np.rint(255 * encoded).astype(np.uint8)
+
+
+def difference(image: Path, reference: Path, output: Path) -> Difference:
+    """Compares two OpenEXR files of a size; writes |a - b|, brightened, where they differ.
+
+    @throws ValueError where their sizes differ
+    """
+    a, b = read_linear(image), read_linear(reference)
+    if a.shape != b.shape:
+        raise ValueError(f'{image} and {reference} differ in size')
+    absolute = np.abs(np.nan_to_num(a) - np.nan_to_num(b))
+    differing = int((a != b).any(axis=2).sum())
+    largest = float(absolute.max())
+    factor = float(2 ** np.floor(np.log2(BRIGHTEST / largest))) if largest > 0 else 1.0
+    if differing:
+        imageio.imwrite(output, to_srgb(absolute * max(factor, 1)))
+    return Difference(differing, a.shape[0] * a.shape[1], largest, max(factor, 1))

@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: GPL-3.0-only
+"""What is measured: scenes, kernels, and the runs that a benchmark consists of."""
+
+import os
+import shlex
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+RECORDER = 'simple-bvh'  # its answers and its image are those that others are compared with
+TEMPLATE = 'yourkernel'
+RENDER, CONTROL, RECORD, REPLAY = 'render', 'control', 'record', 'replay'
+
+
+class UsageError(Exception):
+    """A name or a value on the command line that fits nothing."""
+
+
+@dataclass(frozen=True)
+class Extent:
+    """How much is measured."""
+
+    size: str  # of the image, WIDTHxHEIGHT in pixels
+    passes: int  # samples per pixel
+    repeats: int
+    replay_rays: int  # at least so many questions are recorded of each scene
+    replay_seconds: float  # the shortest time of one measurement of a replay
+    growth: tuple[int, ...]  # triangles, about
+    time_limit: float  # of one run, in seconds
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A scene file and the camera of the same name beside it."""
+
+    name: str
+    file: Path
+    camera: Path
+    scale: int | None = None  # triangles, about, where it is made for a growth curve
+
+    @property
+    def triangles(self) -> Path:
+        """The triangle file that the scene file names, as doc/file-formats says."""
+        for line in self.file.read_text(encoding='utf-8', errors='surrogateescape').splitlines():
+            words = shlex.split(line, comments=True)
+            if words[:1] == ['triangles'] and len(words) > 1:
+                return self.file.parent / words[1]
+        raise OSError(f'{self.file}: names no triangles')
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """An executable bwfirt-NAME with options of the kernel."""
+
+    name: str  # NAME or NAME:OPTION=VALUE,...
+    program: Path
+
+    @property
+    def options(self) -> list[str]:
+        _, _, options = self.name.partition(':')
+        return options.split(',') if options else []
+
+
+@dataclass(frozen=True)
+class Run:
+    """One process that is to be measured."""
+
+    kind: str  # RENDER, CONTROL (the same again, to learn the noise), RECORD or REPLAY
+    scene: Scene
+    kernel: Kernel
+    threads: int
+    repeat: int = 1
+
+    @property
+    def name(self) -> str:
+        """The path of its results below the folder of results, without an ending."""
+        folder = f'{self.scene.name}/{self.kernel.name}'
+        if self.kind in (RECORD, REPLAY):
+            return f'{folder}/{self.kind}'
+        return f'{folder}/{self.kind}-{self.threads}-threads-{self.repeat}'
+
+    def __str__(self) -> str:
+        what = {RENDER: '', CONTROL: ', control'}.get(self.kind, f', {self.kind}')
+        return f'{self.kernel.name} on {self.scene.name}{what}'
+
+
+def unique(name: str, taken: Iterable[str]) -> str:
+    names = [name, *(f'{name}-{number}' for number in range(2, 1000))]
+    return next(candidate for candidate in names if candidate not in taken)
+
+
+def scene_files(entry: str) -> list[Path]:
+    """The files of an entry: NAME in scenes/, a scene file, or a folder of scenes with cameras."""
+    entry = os.path.expandvars(entry)
+    if entry.startswith('$'):  # an environment variable that is not set
+        return []
+    path = Path(entry)
+    if path.is_dir():
+        return sorted(file for file in path.glob('*.scene') if file.with_suffix('.camera').exists())
+    if path.suffix == '.scene':
+        return [path.absolute()]
+    return [ROOT / 'scenes' / f'{entry}.scene']
+
+
+def find_scenes(entries: Iterable[str]) -> list[Scene]:
+    """Two files of one name become NAME and NAME-2.
+
+    @throws UsageError for a scene that does not exist
+    """
+    scenes: dict[str, Scene] = {}
+    for entry in entries:
+        for file in scene_files(entry):
+            if not file.exists():
+                made = (ROOT / 'scenes' / f'{entry}.py').exists()
+                raise UsageError(f'{file} does not exist' + ': run `scons scenes`' * made)
+            camera = file.with_suffix('.camera')
+            if not camera.exists():
+                raise UsageError(f'{camera} does not exist: a scene needs a camera beside it')
+            name = unique(file.stem, scenes)
+            scenes[name] = Scene(name, file, camera)
+    if not scenes:
+        raise UsageError('there is no scene to measure')
+    return list(scenes.values())
+
+
+def built_kernels(build: Path) -> list[str]:
+    return sorted(program.name.removeprefix('bwfirt-') for program in build.glob('bwfirt-*')
+                  if program.name != 'bwfirt-import' and os.access(program, os.X_OK))
+
+
+def find_kernels(entries: Iterable[str], build: Path) -> list[Kernel]:
+    """'*' stands for all that are built and not named otherwise, but for the template.
+
+    @throws UsageError for a kernel that is not built
+    """
+    built = built_kernels(build)
+    entries = list(entries)
+    named = {entry.partition(':')[0] for entry in entries}
+    kernels: dict[str, Kernel] = {}
+    for entry in entries:
+        others = [name for name in built if name not in named | {TEMPLATE}]
+        for name in others if entry == '*' else [entry]:
+            base = name.partition(':')[0]
+            if base not in built:
+                raise UsageError(f"the kernel '{base}' is not built in {build}; built are: "
+                                 f"{', '.join(built) or 'none'}")
+            kernels[name] = Kernel(name, build / f'bwfirt-{base}')
+    if not kernels:
+        raise UsageError(f'there is no kernel to measure in {build}')
+    return list(kernels.values())
+
+
+def thread_counts(threads: int) -> list[int]:
+    """1, 2, 4 ... and the number itself."""
+    return sorted({2**power for power in range(threads.bit_length())} | {threads})
+
+
+@dataclass(frozen=True)
+class Plan:
+    """All runs of a benchmark."""
+
+    scenes: list[Scene]
+    kernels: list[Kernel]
+    control: str  # the kernel that is measured against itself
+    growth: list[Scene]
+    scaling: list[str]  # scenes that are rendered with fewer threads, too
+    threads: int
+    extent: Extent
+    recorder: Kernel | None  # None where it is not built: there are no replays then
+
+    def names(self) -> set[tuple[str, str]]:
+        """Of scene and kernel."""
+        return {(run.scene.name, run.kernel.name) for run in self.runs()}
+
+    def runs(self) -> Iterator[Run]:
+        """In the order in which they are made.
+
+        Within each repeat the kernels take turns on each scene. Each repeat begins with another
+        kernel, so that none always comes first.
+        """
+        for repeat in range(1, self.extent.repeats + 1):
+            for scene in self.scenes:
+                yield from self._turn(scene, repeat)
+            for scene in self.growth:
+                for kernel in self.kernels:
+                    yield Run(RENDER, scene, kernel, self.threads, repeat)
+        if self.recorder:
+            for scene in self.scenes:
+                yield Run(RECORD, scene, self.recorder, 1)
+                for kernel in self.kernels:
+                    yield Run(REPLAY, scene, kernel, self.threads)
+
+    def _turn(self, scene: Scene, repeat: int) -> Iterator[Run]:
+        runs = [Run(RENDER, scene, kernel, self.threads, repeat) for kernel in self.kernels]
+        runs += [Run(CONTROL, scene, kernel, self.threads, repeat) for kernel in self.kernels
+                 if kernel.name == self.control]
+        first = (repeat - 1) % len(runs)
+        yield from runs[first:] + runs[:first]
+        if scene.name in self.scaling:
+            for threads in thread_counts(self.threads)[:-1]:
+                for kernel in self.kernels:
+                    yield Run(RENDER, scene, kernel, threads, repeat)

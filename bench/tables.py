@@ -1,0 +1,252 @@
+# SPDX-License-Identifier: GPL-3.0-only
+"""The tables of the report, one function each."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from doubts import failures, percent
+from figures import short, si
+from metrics import (ANSWERS, BYTES_PER_TRIANGLE, FINAL, INITIALIZE, PEAK, RATE, RATE_H, RATE_MIXED,
+                     RATE_V, RENDERING, TOTAL, Measured, Metric, Report)
+from plan import CONTROL, RECORD, REPLAY
+
+
+@dataclass(frozen=True)
+class Cell:
+    """Of a table. Numbers are aligned to the right."""
+
+    text: str
+    value: float | None = None  # what a reader sorts by; None for text
+    is_best: bool = False
+    error: str = ''  # shown beside the figure
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of cells under their columns' names."""
+
+    title: str
+    columns: list[str]
+    rows: list[list[Cell]] = field(default_factory=list)
+    note: str = ''
+
+
+def number(x: float, text: str | None = None, **more: object) -> Cell:
+    return Cell(text if text is not None else short(x), x, **more)  # type: ignore[arg-type]
+
+
+NOTHING = Cell('\u2013')
+
+
+def figure_cell(measured: Measured, metric: Metric, scene: str, kernel: str,
+                with_range: bool = False) -> Cell:
+    """A median, with its wrong answers where there are any, or how the runs failed."""
+    spread = measured.spread(metric, scene, kernel)
+    if spread is None:
+        failed = [run for run in measured.runs(scene, kernel, metric.kind) if not run.done]
+        return Cell('', error=failed[0].status) if failed else NOTHING
+    wrong = measured.wrong_per_million(scene, kernel)
+    text = short(spread.median)
+    if with_range and not metric.is_exact:
+        text += f' ({short(spread.lowest)}\u2013{short(spread.highest)})'
+    return number(spread.median, text, is_best=kernel in measured.best(metric, scene),
+                  error=f'{si(wrong)} ppm wrong' if wrong else '')
+
+
+def speed(measured: Measured) -> Table:
+    noise = measured.noise(RATE)
+    note = ('Bold: the best, and all that cannot be told from it because their ranges overlap or '
+            'they differ by less than the noise' +
+            (f', which is {percent(noise)} here' if noise is not None else '') +
+            '. Kernels whose answers are wrong are not ranked.')
+    rows = [[Cell(scene), *(figure_cell(measured, RATE, scene, kernel)
+                            for kernel in measured.kernels)] for scene in measured.scenes]
+    return Table('Million rays per second, gross: medians', ['scene', *measured.kernels], rows, note)
+
+
+def kernels(measured: Measured) -> Table:
+    metrics = [TOTAL, INITIALIZE, RATE, RATE_H, RATE_V, RATE_MIXED, PEAK, FINAL]
+    failed = failures(measured)
+
+    def mean(metric: Metric, kernel: str) -> Cell:
+        relative = measured.relative(metric, kernel)
+        if relative is None:
+            return NOTHING
+        value, scenes = relative
+        return number(value, short(value) + (f' [{scenes}]' if scenes < len(measured.scenes) else ''))
+
+    def row(kernel: str) -> list[Cell]:
+        wrong = [ppm for scene in measured.scenes
+                 if (ppm := measured.wrong_per_million(scene, kernel)) is not None]
+        count = sum(row[1] == kernel for row in failed)
+        return [Cell(kernel), *(mean(metric, kernel) for metric in metrics),
+                number(max(wrong), si(max(wrong))) if wrong else Cell('not checked'),
+                number(count, str(count))]
+    names = {RATE: 'rays', RATE_H: 'h', RATE_V: 'V', RATE_MIXED: 'h and V', TOTAL: 'total time',
+             INITIALIZE: 'initialise', PEAK: 'peak mem.', FINAL: 'final mem.'}
+    return Table(f'Geometric means over the scenes, relative to {measured.reference}',
+                 ['kernel', *(names[metric] for metric in metrics), 'wrong ppm', 'failures'],
+                 [row(kernel) for kernel in measured.kernels],
+                 'Times and memory: less is better; rays, h, V (replayed): more is better. A number in '
+                 'brackets tells of how many scenes a mean is, where it is not of all. Wrong: answers '
+                 'in a million, on the worst scene.')
+
+
+def failure_table(measured: Measured) -> Table:
+    return Table('Failures', ['scene', 'kernel', 'what', 'message'],
+                 [[Cell(text) for text in row] for row in failures(measured)])
+
+
+def numbers(measured: Measured, scene: str) -> Table:
+    metrics = [INITIALIZE, RENDERING, TOTAL, RATE, RATE_MIXED, PEAK, FINAL, BYTES_PER_TRIANGLE]
+    names = ['initialise s', 'render s', 'total s', 'Mrays/s', 'replayed', 'peak MB', 'final MB',
+             'B/triangle']
+    rows = [[Cell(kernel), *(figure_cell(measured, metric, scene, kernel, with_range=True)
+                             for metric in metrics)] for kernel in measured.kernels]
+    return Table('Medians (lowest\u2013highest)', ['kernel', *names], rows)
+
+
+def intensity(measured: Measured, scene: str) -> Table:
+    def row(kernel: str) -> list[Cell]:
+        run = measured.first(scene, kernel)
+        if run is None:
+            return [Cell(kernel), figure_cell(measured, RATE, scene, kernel), *[NOTHING] * 4]
+        average = run.report['average_intensity'][0]
+        error = run.report['standard_error'][0]
+        reference = run.report['reference_average_intensity']
+        off = (average - reference[0]) / error if reference and error else None
+        return [Cell(kernel), number(average, f'{average:.9f}'),
+                number(error, f'{error:.2g}') if error is not None else NOTHING,
+                number(reference[0], f'{reference[0]:.9f}') if reference else NOTHING,
+                number(off, f'{off:+.2f}') if off is not None else NOTHING,
+                number(run.report['squared_error'], f"{run.report['squared_error']:.3g}")]
+    return Table('Average intensity', ['kernel', 'average', 'standard error', 'reference',
+                                       'off by, in s.e.', 'squared error'],
+                 [row(kernel) for kernel in measured.kernels])
+
+
+def answers(measured: Measured, scene: str) -> Table:
+    def row(kernel: str) -> list[Cell]:
+        replay = measured.first(scene, kernel, REPLAY)
+        if replay is None:
+            failed = [run for run in measured.runs(scene, kernel, REPLAY) if not run.done]
+            status = failed[0].status if failed else 'not replayed'
+            return [Cell(kernel), Cell('', error=status), *[NOTHING] * (len(ANSWERS) + 1)]
+        report = replay.report['replay']
+        asked = sum(report['rays'].values())
+        distance = report['answers']['max_relative_distance_error']
+        return [Cell(kernel), number(asked, str(asked)),
+                *(number(count := report['answers'][name], str(count),
+                         error='' if name == 'tie' or not count else '!') for name in ANSWERS),
+                number(distance, f'{distance:.2g}')]
+    recorders = {run.report['replay']['recorded_by'] for kernel in measured.kernels
+                 if (run := measured.first(scene, kernel, REPLAY))}
+    return Table(f"Answers that differ from those of {', '.join(sorted(recorders)) or 'the recorder'}",
+                 ['kernel', 'questions', *(name.replace('_', ' ') for name in ANSWERS),
+                  'distance error'], [row(kernel) for kernel in measured.kernels])
+
+
+def control(measured: Measured) -> Table:
+    metrics = [RATE, TOTAL, INITIALIZE, RENDERING]
+    rows = []
+    for result in measured.results:
+        if result.kind == CONTROL and result.repeat == 1:
+            ratios = [measured.control_ratio(metric, result.scene, result.kernel)
+                      for metric in metrics]
+            rows.append([Cell(result.scene), Cell(result.kernel),
+                         *(number(ratio, f'{100 * (ratio - 1):+.2f} %') if ratio else NOTHING
+                           for ratio in ratios)])
+    noises = [measured.noise(metric) for metric in metrics]
+    if rows:
+        rows.append([Cell('noise'), Cell(''), *(number(noise, f'{100 * noise:.2f} %')
+                                                if noise is not None else NOTHING
+                                                for noise in noises)])
+    return Table('Control: a kernel against itself', ['scene', 'kernel', 'rays per second',
+                                                      'total time', 'initialise', 'render'], rows,
+                 'The difference of medians of the same kernel, measured twice in each turn. Noise is '
+                 'the largest of them, up or down; a smaller difference between kernels is shown as '
+                 'none.')
+
+
+def break_even(measured: Measured) -> Table:
+    def cell(scene: str, kernel: str) -> Cell:
+        ahead = measured.ahead(scene, kernel, measured.reference)
+        if kernel == measured.reference or ahead is None:
+            return NOTHING
+        begin, end = ahead
+        if begin == math.inf:
+            return number(begin, 'never')
+        if end < math.inf:
+            return number(begin, f'up to {si(end)}')
+        return number(begin, f'from {si(begin)} on' if begin else 'always')
+    return Table(f'Rays for which a kernel is done before {measured.reference}, building included',
+                 ['scene', *measured.kernels],
+                 [[Cell(scene), *(cell(scene, kernel) for kernel in measured.kernels)]
+                  for scene in measured.scenes])
+
+
+def size(count: float) -> str:
+    return f'{count / 2**30:.1f} GiB'
+
+
+def system(measured: Measured) -> Table:
+    """Of the newest run."""
+    newest = measured.results[-1].bench['machine']
+    unknown = 'not readable'
+    rows = [('processor', newest['cpu'] + (', in a virtual machine' if newest['virtual'] else '')),
+            ('caches', ', '.join(newest['caches']) or unknown),
+            ('processors', str(newest['cores'])),
+            ('used', ', '.join(map(str, newest['affinity']))),
+            ('scaling governor', newest['governor'] or unknown),
+            ('boost', newest['boost'] or unknown),
+            ('memory', size(newest['memory_bytes'])),
+            ('transparent huge pages', newest['transparent_huge_pages'] or unknown),
+            ('huge pages reserved', newest['huge_pages'] or unknown),
+            ('operating system', newest['os']),
+            ('load average, before first and after last run',
+             f"{measured.results[0].bench['disturbance']['load_before']:.2f}, "
+             f"{measured.results[-1].bench['disturbance']['load_after']:.2f}"),
+            ('others\u2019 share of processor time', _largest(measured, 'others')),
+            ('share stolen by other virtual machines', _largest(measured, 'stolen'))]
+    return Table('System', ['', ''], [[Cell(key), Cell(text)] for key, text in rows])
+
+
+def _largest(measured: Measured, key: str) -> str:
+    shares = [result.bench['disturbance'][key] for result in measured.results
+              if result.kind != RECORD]
+    return f'at most {percent(max(shares))} in a run' if shares else '\u2013'
+
+
+def compilers(measured: Measured) -> Table:
+    def row(kernel: str) -> list[Cell]:
+        run = next((result for result in measured.results
+                    if result.kernel == kernel and result.done), None)
+        if run is None:
+            return [Cell(kernel), *[NOTHING] * 4]
+        program = run.report['program']
+        return [Cell(kernel), *(Cell(program[key]) for key in ['commit', 'compiler', 'flags'])] + [
+            Cell('the same' if program['kernel_flags'] == program['flags']
+                 else program['kernel_flags'])]
+    return Table('Compilers and flags', ['kernel', 'commit', 'compiler', 'flags of the framework',
+                                         'flags of the kernel'],
+                 [row(kernel) for kernel in measured.kernels])
+
+
+def scenes(measured: Measured) -> Table:
+    rows = []
+    for scene in measured.scenes:
+        run = next((run for kernel in measured.kernels if (run := measured.first(scene, kernel))),
+                   None)
+        if run:
+            triangles: Report = run.report
+            rows.append([Cell(scene), number(triangles['triangles'], f"{triangles['triangles']:,}"),
+                         Cell(run.fingerprint['triangles']), Cell(run.fingerprint['camera'][:16])])
+    return Table('Scenes', ['scene', 'triangles', 'SHA-256 of the triangles',
+                            'SHA-256 of the camera begins'], rows)
+
+
+SUMMARY: list[Callable[[Measured], Table]] = [speed, kernels]
+SCENE_TABLES: list[Callable[[Measured, str], Table]] = [numbers, intensity, answers]
+OVERALL_TABLES: list[Callable[[Measured], Table]] = [break_even, control]
+SYSTEM_TABLES: list[Callable[[Measured], Table]] = [system, compilers, scenes]
