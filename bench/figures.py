@@ -127,7 +127,7 @@ def memory(measured: Measured, scene: str) -> Figure | None:
         per_triangle = 1e6 * spread.median / report.report['triangles']
         return f'{short(spread.median)} ({short(per_triangle)} B/tri.)'
     figure = _bar_chart(measured, scene, [PEAK, FINAL], 'Memory of the kernel',
-                        'MB = 10\u2076 bytes (and bytes per triangle)', text=text)
+                        'MB (and bytes per triangle)', text=text)
     if figure:
         axes = figure.axes[0]
         axes.set_xlim(0, 1.35 * axes.get_xlim()[1])
@@ -150,13 +150,15 @@ def numerical_comparison(measured: Measured, scene: str) -> Figure | None:
         index = measured.kernels.index(kernel) % len(COLOURS)
         axes.plot(max(value, lowest / 3), place, MARKERS[index], color=COLOURS[index],
                   markeredgecolor='black', markeredgewidth=0.5)
-        axes.annotate(f'{value:.3g}', (max(value, lowest / 3), place), xytext=(6, 0),
-                      textcoords='offset points', va='center', fontsize=8)
+        axes.annotate(f'{value:.3g}', (max(value, lowest / 3), place), xytext=(7, 0),
+                      textcoords='offset points', va='center', fontsize=8,
+                      bbox={'facecolor': 'white', 'edgecolor': 'none', 'pad': 1})
     if variances[0] > 0 and runs[0].report['reference_average_intensity']:
         axes.axvline(variances[0], color='black', linestyle='--', linewidth=0.8)
     axes.set_xscale('log')
-    axes.set_xlim(lowest / 10, highest * 300)
+    axes.set_xlim(lowest / 10, highest * 100)
     axes.xaxis.set_major_locator(LogLocator(numticks=6))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f'{value:.0e}'))
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_yticks(range(len(kernels)), [names_errors(measured, scene, k) for k in kernels])
     axes.set_ylim(len(kernels) - 0.4, -0.6)

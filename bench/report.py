@@ -115,13 +115,16 @@ def content(measured: Measured, folder: Path) -> dict[str, Any]:
     date = moment(measured)
     done = [result for result in measured.results if result.done]
     last = measured.results[-1]
+    rendered = next((result.fingerprint for result in reversed(measured.results)
+                     if 'passes' in result.fingerprint), last.fingerprint)
     return {
         'date': date.strftime('%Y-%m-%d %H:%M UTC'),
         'version': done[-1].report['program']['version'] if done else '',
         'commit': done[-1].report['program']['commit'] if done else 'unknown',
         'cpu': last.bench['machine']['cpu'],
         'threads': measured.threads,
-        'extent': last.fingerprint,
+        'size': rendered['size'],
+        'passes': rendered.get('passes', 0),
         'repeats': max((result.repeat for result in measured.results), default=0),
         'kernels': measured.kernels,
         'reference': measured.reference,

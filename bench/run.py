@@ -173,10 +173,21 @@ class Measurement:
     def result_of(self, run: Run) -> Result | None:
         """The result in the folder, None where it is missing or out of date."""
         result = read_result(self.folder / f'{run.name}.json')
-        return result if result and result.fingerprint == self.fingerprint(run) else None
+        if result is None or result.fingerprint != self.fingerprint(run):
+            return None
+        if run.kind == RECORD and result.done and not self.stream(run.scene).exists():
+            return None
+        return result
 
     def is_needed(self, run: Run) -> bool:
-        """What failed once in this way is not tried again with its further repeats."""
+        """What failed once in this way is not tried again with its further repeats.
+
+        A ray stream is needed where a kernel is yet to replay it.
+        """
+        if run.kind == RECORD:
+            replays = (Run(REPLAY, run.scene, kernel, self.plan.threads)
+                       for kernel in self.plan.kernels)
+            return self.result_of(run) is None and any(map(self.is_needed, replays))
         first = Run(run.kind, run.scene, run.kernel, run.threads)
         failed = (result := self.result_of(first)) is not None and not result.done
         return not failed and self.result_of(run) is None

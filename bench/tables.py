@@ -98,13 +98,25 @@ def failure_table(measured: Measured) -> Table:
                  [[Cell(text) for text in row] for row in failures(measured)])
 
 
-def numbers(measured: Measured, scene: str) -> Table:
-    metrics = [INITIALIZE, RENDERING, TOTAL, RATE, RATE_MIXED, PEAK, FINAL, BYTES_PER_TRIANGLE]
-    names = ['initialise s', 'render s', 'total s', 'Mrays/s', 'replayed', 'peak MB', 'final MB',
-             'B/triangle']
+def times(measured: Measured, scene: str) -> Table:
+    metrics = {INITIALIZE: 'initialise s', RENDERING: 'render s', TOTAL: 'total s',
+               RATE: 'Mrays/s, gross', RATE_MIXED: 'Mrays/s, replayed'}
     rows = [[Cell(kernel), *(figure_cell(measured, metric, scene, kernel, with_range=True)
                              for metric in metrics)] for kernel in measured.kernels]
-    return Table('Medians (lowest\u2013highest)', ['kernel', *names], rows)
+    return Table('Times and rates: medians (lowest\u2013highest)', ['kernel', *metrics.values()], rows)
+
+
+def memory(measured: Measured, scene: str) -> Table:
+    metrics = {PEAK: 'peak MB', FINAL: 'final MB', BYTES_PER_TRIANGLE: 'final bytes per triangle'}
+
+    def row(kernel: str) -> list[Cell]:
+        run = measured.first(scene, kernel)
+        cells = [figure_cell(measured, metric, scene, kernel) for metric in metrics]
+        process = run.report['memory']['process_peak_bytes'] / 1e6 if run else None
+        return [Cell(kernel), *cells, number(process) if process is not None else NOTHING]
+    return Table('Memory of the kernel, and of the whole process',
+                 ['kernel', *metrics.values(), 'process peak MB'],
+                 [row(kernel) for kernel in measured.kernels])
 
 
 def intensity(measured: Measured, scene: str) -> Table:
@@ -121,9 +133,9 @@ def intensity(measured: Measured, scene: str) -> Table:
                 number(reference[0], f'{reference[0]:.9f}') if reference else NOTHING,
                 number(off, f'{off:+.2f}') if off is not None else NOTHING,
                 number(run.report['squared_error'], f"{run.report['squared_error']:.3g}")]
-    return Table('Average intensity', ['kernel', 'average', 'standard error', 'reference',
-                                       'off by, in s.e.', 'squared error'],
-                 [row(kernel) for kernel in measured.kernels])
+    return Table('Average intensity (red channel), and its squared error (of all)',
+                 ['kernel', 'average', 'standard error (s.e.)', 'reference', 'off by, in s.e.',
+                  'squared error'], [row(kernel) for kernel in measured.kernels])
 
 
 def answers(measured: Measured, scene: str) -> Table:
@@ -247,6 +259,6 @@ def scenes(measured: Measured) -> Table:
 
 
 SUMMARY: list[Callable[[Measured], Table]] = [speed, kernels]
-SCENE_TABLES: list[Callable[[Measured, str], Table]] = [numbers, intensity, answers]
+SCENE_TABLES: list[Callable[[Measured, str], Table]] = [times, memory, intensity, answers]
 OVERALL_TABLES: list[Callable[[Measured], Table]] = [break_even, control]
 SYSTEM_TABLES: list[Callable[[Measured], Table]] = [system, compilers, scenes]
