@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from plan import CONTROL, RECORD, RENDER, REPLAY
+from plan import CONTROL, RECORD, RECORDER, RENDER, REPLAY
 from results import Result
 
 Report = dict[str, Any]
@@ -86,7 +86,11 @@ class Spread:
 
 
 class Measured:
-    """The results of a benchmark, to be asked by scene and kernel."""
+    """The results of a benchmark, to be asked by scene and kernel.
+
+    Scenes are in the order of their triangles; kernels in that of their names, behind the two that
+    others are compared with. So a kernel keeps its colour when it is measured again.
+    """
 
     def __init__(self, results: Iterable[Result],
                  names: set[tuple[str, str]] | None = None) -> None:
@@ -94,11 +98,13 @@ class Measured:
         self.results = [result for result in results
                         if names is None or (result.scene, result.kernel) in names]
         main = [result for result in self.results if result.bench['scale'] is None]
-        self.scenes = list(dict.fromkeys(result.scene for result in main))
+        triangles = {result.scene: result.report.get('triangles', 0) for result in main}
+        self.scenes = sorted(triangles, key=lambda scene: (triangles[scene], scene))
         self.growth_scene = next((result.scene.partition('@')[0] for result in self.results
                                   if result.bench['scale']), '')
-        self.kernels = list(dict.fromkeys(result.kernel for result in self.results
-                                          if result.kind in (RENDER, REPLAY)))
+        self.kernels = sorted(
+            {result.kernel for result in self.results if result.kind in (RENDER, REPLAY)},
+            key=lambda kernel: (kernel != RECORDER, kernel != REFERENCE, kernel))
         self.threads = max((result.fingerprint['threads'] for result in main
                             if 'threads' in result.fingerprint), default=0)
         self.reference = REFERENCE if REFERENCE in self.kernels else next(iter(self.kernels), '')
