@@ -96,7 +96,7 @@ def builds(measured: Measured) -> Iterator[str]:
 
 def extent(measured: Measured) -> Iterator[str]:
     done = [result for result in measured.results if result.done]
-    for key in ['size', 'passes', 'replay_rays', 'replay_seconds']:
+    for key in ['size', 'passes', 'threads', 'replay_rays', 'replay_seconds']:
         if len({result.fingerprint[key] for result in done if key in result.fingerprint}) > 1:
             yield f"The runs differ in {key.replace('_', ' ')}."
     if any(result.fingerprint['replay_seconds'] < SHORT_REPLAY for result in done

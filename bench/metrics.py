@@ -98,8 +98,9 @@ class Measured:
         self.results = [result for result in results
                         if names is None or (result.scene, result.kernel) in names]
         main = [result for result in self.results if result.bench['scale'] is None]
-        triangles = {result.scene: result.report.get('triangles', 0) for result in main}
-        self.scenes = sorted(triangles, key=lambda scene: (triangles[scene], scene))
+        triangles = {result.scene: result.report['triangles'] for result in main if result.done}
+        self.scenes = sorted({result.scene for result in main},
+                             key=lambda scene: (triangles.get(scene, 0), scene))
         self.growth_scene = next((result.scene.partition('@')[0] for result in self.results
                                   if result.bench['scale']), '')
         self.kernels = sorted(
