@@ -15,6 +15,7 @@ GROWTH = 'forest'  # a standard scene that is made of ever more triangles
 
 import argparse
 import os
+import re
 import signal
 import sys
 from pathlib import Path
@@ -24,7 +25,7 @@ try:
     from metrics import Measured
     from plan import (RECORDER, ROOT, Extent, Plan, Scene, UsageError, built_kernels, find_kernels,
                       find_scenes)
-    from report import ReportError, write_report
+    from report import ReportError, require_output, write_report
     from results import ResultsError, read_results
     from run import Limits, Measurement, remove
 except ModuleNotFoundError as missing:
@@ -47,6 +48,12 @@ def positive(kind: type) -> object:
         return value
     parse.__name__ = 'number'  # what argparse calls a text that is none
     return parse
+
+
+def size(text: str) -> str:
+    if not re.fullmatch('[1-9][0-9]*x[1-9][0-9]*', text):
+        raise argparse.ArgumentTypeError(f'{text} is not WIDTHxHEIGHT')
+    return text
 
 
 def names(text: str) -> list[str]:
@@ -73,7 +80,7 @@ def parse_arguments() -> argparse.Namespace:
     add('--repeats', metavar='N', type=whole, help='of each run, default 3')
     add('--threads', metavar='N', type=whole, help='default: all that may be used')
     add('--passes', metavar='N', type=whole, help='samples per pixel, default 16')
-    add('--size', metavar='WxH', help='of the image, default 640x480')
+    add('--size', metavar='WxH', type=size, help='of the image, default 640x480')
     add('--time-limit', metavar='SECONDS', type=positive(float), help='of one run, default 1800')
     add('--memory-limit', metavar='GB', type=positive(float), help="of one run's address space, "
         'default 0.9 times the memory of the machine')
@@ -136,6 +143,7 @@ def main() -> int:
             for run in measurement.missing():
                 print(' '.join(measurement.command(run, results / run.name)))
             return DONE
+        require_output(arguments.output)
         if arguments.fresh:
             remove(plan, results)
         measurement.measure(lambda line: print(line, flush=True))

@@ -162,12 +162,6 @@ def breakable(text: str) -> str:
     return ''.join(pieces)
 
 
-def require_latex() -> None:
-    for program, package in LATEX:
-        if shutil.which(program) is None:
-            raise ReportError(f'{program} is missing: install the Debian packages {package}')
-
-
 def run_quietly(command: list[str], folder: Path) -> None:
     result = subprocess.run(command, cwd=folder, check=False, stdin=subprocess.DEVNULL,
                             capture_output=True, text=True, errors='replace')
@@ -178,7 +172,6 @@ def run_quietly(command: list[str], folder: Path) -> None:
 
 def write_pdf(shown: dict[str, Any], drawn: Iterable[tuple[str, Any]], folder: Path) -> bytes:
     """Draws the figures as EPS, converts them by epstopdf, and typesets all by LaTeX."""
-    require_latex()
     names = []
     for name, figure in drawn:
         figure.savefig(folder / f'{name}.eps', bbox_inches='tight', pad_inches=0.02)
@@ -247,6 +240,19 @@ def write_atomically(path: Path, data: bytes) -> None:
         unfinished.unlink(missing_ok=True)
 
 
+def require_output(base: Path) -> None:
+    """What can be known before hours of measuring.
+
+    @throws ReportError where LaTeX is not installed, or the folder cannot be written to
+    """
+    for program, package in LATEX:
+        if shutil.which(program) is None:
+            raise ReportError(f'{program} is missing: install the Debian packages {package}')
+    folder = base.absolute().parent
+    if not os.access(folder, os.W_OK):
+        raise ReportError(f'{folder}: cannot be written to')
+
+
 def write_report(measured: Measured, base: Path) -> list[Path]:
     """Writes BASE.csv and BASE.pdf; gives their paths.
 
@@ -254,6 +260,7 @@ def write_report(measured: Measured, base: Path) -> list[Path]:
     """
     if not measured.results:
         raise ReportError('there are no results to report')
+    require_output(base)
     paths = [base.with_suffix(ending) for ending in ['.csv', '.pdf']]
     os.environ['SOURCE_DATE_EPOCH'] = str(int(moment(measured).timestamp()))
     os.environ['FORCE_SOURCE_DATE'] = '1'
