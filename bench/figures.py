@@ -23,13 +23,14 @@ matplotlib.rcParams.update({
 })
 WIDTH = 3.35  # inches, half the width of the text
 
-# Okabe and Ito's colours, which colour-blind people tell apart, in an order in which neighbours
-# differ in grey, too. Markers, lines and hatches tell apart what is left.
-COLOURS = ['#0072B2', '#E69F00', '#009E73', '#F0E442', '#D55E00', '#56B4E9', '#CC79A7', '#777777']
+# Okabe and Ito's colours, which colour-blind people tell apart, but for a darker yellow; in an order
+# in which neighbours differ in grey, too. Markers, lines and hatches tell apart what is left.
+COLOURS = ['#0072B2', '#E69F00', '#009E73', '#DDCC33', '#D55E00', '#56B4E9', '#CC79A7', '#777777']
 HATCHES = ['', '////', '....', 'xxxx', '\\\\\\\\', '++++', 'oooo', '----']
 MARKERS = 'osD^vP*X'
 LINES = ['-', '--', '-.', ':', (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), (0, (7, 3))]
 DARK = '#333333'
+BLANK = {'facecolor': 'white', 'edgecolor': 'none', 'pad': 1}  # behind a text across lines
 ERROR_BARS = {'ecolor': 'black', 'error_kw': {'elinewidth': 0.8, 'capsize': 2, 'capthick': 0.8}}
 
 
@@ -50,10 +51,15 @@ def si(x: float, _: object = None) -> str:
     return f'{x:.3g}'
 
 
-def names_errors(measured: Measured, scene: str, kernel: str) -> str:
-    """The kernel's name, and its errors where its answers are wrong."""
+def row_height(measured: Measured) -> float:
+    """In inches, so that the figures of a scene fit a page."""
+    return 0.21 if len(measured.kernels) <= 4 else 0.15
+
+
+def with_errors(measured: Measured, scene: str, kernel: str, text: str) -> str:
+    """A figure with the kernel's wrong answers, where there are any."""
     wrong = measured.wrong_per_million(scene, kernel)
-    return f'{kernel}\n({si(wrong)} wrong ppm)' if wrong else kernel
+    return f'{text}, {si(wrong)} ppm wrong' if wrong else text
 
 
 def range_of(spread: Spread) -> list[list[float]]:
@@ -64,16 +70,18 @@ def range_of(spread: Spread) -> list[list[float]]:
 # ---- Of one scene -------------------------------------------------------------------------------
 
 
+Text = Callable[[str, Spread], str]  # of a kernel and its figure
+
+
 def _bars(axes: Axes, measured: Measured, scene: str, metric: Metric, below: Metric | None,
-          text: Callable[[str, Spread], str]) -> None:
+          text: Text) -> None:
     """A bar for each kernel, with its range, its value and the kernel's name.
 
     @param below a metric that is a part of the other one, and is drawn dark
     """
-    kernels = [k for k in measured.kernels if measured.spread(metric, scene, k)]
-    for place, kernel in enumerate(kernels):
-        spread = measured.spread(metric, scene, kernel)
-        assert spread
+    bars = [(kernel, spread) for kernel in measured.kernels
+            if (spread := measured.spread(metric, scene, kernel))]
+    for place, (kernel, spread) in enumerate(bars):
         index = measured.kernels.index(kernel) % len(COLOURS)
         axes.barh(place, spread.median, height=0.7, color=COLOURS[index], hatch=HATCHES[index],
                   edgecolor='black', linewidth=0.5, xerr=range_of(spread), **ERROR_BARS)
@@ -81,30 +89,33 @@ def _bars(axes: Axes, measured: Measured, scene: str, metric: Metric, below: Met
             axes.barh(place, measured.median(below, scene, kernel), height=0.7, color=DARK)
         axes.annotate(text(kernel, spread), (spread.highest, place), xytext=(4, 0),
                       textcoords='offset points', va='center', fontsize=8)
-    axes.set_yticks(range(len(kernels)), [names_errors(measured, scene, k) for k in kernels])
-    axes.set_ylim(len(kernels) - 0.4, -0.6)
-    axes.xaxis.set_major_locator(MaxNLocator(5))
+    axes.set_yticks(range(len(bars)), [kernel for kernel, _ in bars])
+    axes.set_ylim(len(bars) - 0.4, -0.6)
+    axes.xaxis.set_major_locator(MaxNLocator(4))
 
 
 def _bar_chart(measured: Measured, scene: str, metrics: Sequence[Metric], title: str, unit: str,
                below: Metric | None = None,
-               text: Callable[[str, Spread], str] = lambda _, spread: short(spread.median)
-               ) -> Figure | None:
-    shown = [metric for metric in metrics
-             if any(measured.spread(metric, scene, kernel) for kernel in measured.kernels)]
+               text: Text = lambda _, spread: short(spread.median)) -> Figure | None:
+    spreads = {metric: [(kernel, spread) for kernel in measured.kernels
+                        if (spread := measured.spread(metric, scene, kernel))]
+               for metric in metrics}
+    shown = [metric for metric in metrics if spreads[metric]]
     if not shown:
         return None
-    bars = sum(1 for metric in shown for kernel in measured.kernels
-               if measured.spread(metric, scene, kernel))
-    figure = Figure(figsize=(WIDTH, 0.62 + 0.2 * len(shown) + 0.21 * bars))
+
+    def written(kernel: str, spread: Spread) -> str:
+        return with_errors(measured, scene, kernel, text(kernel, spread))
+    bars = [bar for metric in shown for bar in spreads[metric]]
+    figure = Figure(figsize=(WIDTH, 0.62 + 0.2 * len(shown) + row_height(measured) * len(bars)))
     all_axes = figure.subplots(len(shown), sharex=True, squeeze=False)[:, 0]
     for axes, metric in zip(all_axes, shown):
-        _bars(axes, measured, scene, metric, below, text)
+        _bars(axes, measured, scene, metric, below, written)
         if len(metrics) > 1:
             axes.set_title(metric.name, loc='left', fontsize=8, style='italic', pad=2)
-    highest = max(spread.highest for metric in shown for kernel in measured.kernels
-                  if (spread := measured.spread(metric, scene, kernel)))
-    axes.set_xlim(0, 1.25 * highest or 1)  # with room for the values
+    highest = max(spread.highest for _, spread in bars)
+    room = 1 + 0.042 * max(len(written(kernel, spread)) for kernel, spread in bars)
+    axes.set_xlim(0, room * highest or 1)
     axes.set_xlabel(unit)
     figure.suptitle(title, fontsize=9, fontweight='bold')
     return figure
@@ -126,12 +137,8 @@ def memory(measured: Measured, scene: str) -> Figure | None:
         assert report
         per_triangle = 1e6 * spread.median / report.report['triangles']
         return f'{short(spread.median)} ({short(per_triangle)} B/tri.)'
-    figure = _bar_chart(measured, scene, [PEAK, FINAL], 'Memory of the kernel',
-                        'MB (and bytes per triangle)', text=text)
-    if figure:
-        axes = figure.axes[0]
-        axes.set_xlim(0, 1.35 * axes.get_xlim()[1])
-    return figure
+    return _bar_chart(measured, scene, [PEAK, FINAL], 'Memory of the kernel',
+                      'MB (and bytes per triangle)', text=text)
 
 
 def numerical_comparison(measured: Measured, scene: str) -> Figure | None:
@@ -140,7 +147,7 @@ def numerical_comparison(measured: Measured, scene: str) -> Figure | None:
     if not kernels:
         return None
     runs = [run for k in kernels if (run := measured.first(scene, k))]
-    figure = Figure(figsize=(WIDTH, 0.85 + 0.21 * len(kernels)))
+    figure = Figure(figsize=(WIDTH, 0.85 + row_height(measured) * len(kernels)))
     axes = figure.subplots()
     values = [SQUARED_ERROR.samples(run.report)[0] for run in runs]
     variances = [sum(x * x for x in run.report['standard_error'] if x is not None) for run in runs]
@@ -150,23 +157,23 @@ def numerical_comparison(measured: Measured, scene: str) -> Figure | None:
         index = measured.kernels.index(kernel) % len(COLOURS)
         axes.plot(max(value, lowest / 3), place, MARKERS[index], color=COLOURS[index],
                   markeredgecolor='black', markeredgewidth=0.5)
-        axes.annotate(f'{value:.3g}', (max(value, lowest / 3), place), xytext=(7, 0),
+        axes.annotate(with_errors(measured, scene, kernel, f'{value:.3g}'), (max(value, lowest / 3), place), xytext=(7, 0),
                       textcoords='offset points', va='center', fontsize=8,
-                      bbox={'facecolor': 'white', 'edgecolor': 'none', 'pad': 1})
+                      bbox=BLANK)
     if variances[0] > 0 and runs[0].report['reference_average_intensity']:
         axes.axvline(variances[0], color='black', linestyle='--', linewidth=0.8)
     axes.set_xscale('log')
-    axes.set_xlim(lowest / 10, highest * 100)
+    axes.set_xlim(lowest / 10, highest * 300)
     axes.xaxis.set_major_locator(LogLocator(numticks=6))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f'{value:.0e}'))
     axes.xaxis.set_minor_formatter(NullFormatter())
-    axes.set_yticks(range(len(kernels)), [names_errors(measured, scene, k) for k in kernels])
+    axes.set_yticks(range(len(kernels)), kernels)
     axes.set_ylim(len(kernels) - 0.4, -0.6)
     axes.grid(axis='x', linewidth=0.3)
     if runs[0].report['reference_average_intensity']:
-        axes.set_xlabel('|average intensity − reference|² (dashed: its variance)')
+        axes.set_xlabel('squared error (dashed: its variance)')
     else:
-        axes.set_xlabel('|average intensity|², for want of a reference')
+        axes.set_xlabel('squared average, for want of a reference')
     figure.suptitle('Numerical comparison', fontsize=9, fontweight='bold')
     return figure
 
@@ -185,9 +192,10 @@ def relative(measured: Measured) -> Figure | None:
              if any(measured.relative(metric, kernel) for kernel in measured.kernels)]
     if not shown or len(measured.kernels) < 2:
         return None
-    figure = Figure(figsize=(2 * WIDTH, 0.5 + (0.32 + 0.19 * len(measured.kernels)) *
-                             math.ceil(len(shown) / 2)))
-    all_axes = figure.subplots(math.ceil(len(shown) / 2), 2, squeeze=False).flat
+    rows = math.ceil(len(shown) / 2)
+    figure = Figure(figsize=(2 * WIDTH, 0.5 + (0.4 + row_height(measured) *
+                                               len(measured.kernels)) * rows))
+    all_axes = figure.subplots(rows, 2, squeeze=False).flat
     for axes, metric in zip(all_axes, shown):
         means = [(kernel, mean[0]) for kernel in measured.kernels
                  if (mean := measured.relative(metric, kernel))]
@@ -196,7 +204,7 @@ def relative(measured: Measured) -> Figure | None:
             axes.barh(place, mean, height=0.7, color=COLOURS[index], hatch=HATCHES[index],
                       edgecolor='black', linewidth=0.5)
             axes.annotate(short(mean), (mean, place), xytext=(4, 0), textcoords='offset points',
-                          va='center', fontsize=8)
+                          va='center', fontsize=8, bbox=BLANK)
         axes.axvline(1, color='black', linewidth=0.8, linestyle='--')
         axes.set_yticks(range(len(means)), [kernel for kernel, _ in means])
         axes.set_ylim(len(means) - 0.4, -0.6)
@@ -233,7 +241,8 @@ def _curves(axes: Axes, measured: Measured,
 def _legend(figure: Figure) -> None:
     """Below the figure, whose bounding box has to grow by it."""
     handles, labels = figure.axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc='upper center', bbox_to_anchor=(0.5, 0), ncol=4)
+    figure.legend(handles, labels, loc='upper center', bbox_to_anchor=(0.5, 0),
+                  ncol=4 if figure.get_figwidth() > WIDTH else 2)
 
 
 def speed_against_memory(measured: Measured) -> Figure | None:
@@ -248,18 +257,17 @@ def speed_against_memory(measured: Measured) -> Figure | None:
     for kernel, x, y in points:
         index = measured.kernels.index(kernel) % len(COLOURS)
         axes.plot(x, y, MARKERS[index], color=COLOURS[index], markeredgecolor='black',
-                  markeredgewidth=0.5, markersize=7)
-        axes.annotate(kernel, (x, y), xytext=(0, 7), textcoords='offset points', ha='center',
-                      fontsize=8)
+                  markeredgewidth=0.5, markersize=7, linestyle='', label=kernel)
     for set_scale, axis in [(axes.set_xscale, axes.xaxis), (axes.set_yscale, axes.yaxis)]:
         set_scale('log')
         axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axis.set_major_formatter(FuncFormatter(lambda value, _: f'{value:g}'))
         axis.set_minor_formatter(NullFormatter())
-    axes.margins(0.25)
+    axes.margins(0.15)
     axes.grid(linewidth=0.3)
     axes.set_xlabel(f'final memory, {measured.reference} = 1')
     axes.set_ylabel(f'rays per second, {measured.reference} = 1')
+    _legend(figure)
     figure.suptitle('Speed against memory', fontsize=9, fontweight='bold')
     return figure
 

@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime, timezone
 from pathlib import Path
 from typing import Any
@@ -140,6 +140,8 @@ def content(measured: Measured, folder: Path) -> dict[str, Any]:
 
 # ---- LaTeX --------------------------------------------------------------------------------------
 
+LINE = 134  # characters that a line of a table holds, about
+
 SPECIAL = {'\\': r'\textbackslash{}', '~': r'\textasciitilde{}', '^': r'\textasciicircum{}',
            '-': '-{}', '\u2212': '$-$', '\u2013': '--', '\u2019': "'", '<': r'\textless{}',
            '>': r'\textgreater{}', '|': r'\textbar{}', '"': r'\textquotedbl{}',
@@ -160,6 +162,20 @@ def breakable(text: str) -> str:
         if not character.isalnum() or position % 8 == 7:
             pieces.append(r'\allowbreak{}')
     return ''.join(pieces)
+
+
+def fitting(table: tables.Table) -> list[tables.Table]:
+    """Tables with some of the columns each, so that they fit the page; the first is in all."""
+    def width(column: int) -> int:
+        texts = [' '.join([row[column].text, row[column].error]).strip() for row in table.rows]
+        return 2 + max(map(len, [table.columns[column], *texts]))
+    parts: list[list[int]] = [[]]
+    for column in range(1, len(table.columns)):
+        if parts[-1] and width(0) + sum(map(width, [*parts[-1], column])) > LINE:
+            parts.append([])
+        parts[-1].append(column)
+    return [replace(table, columns=[table.columns[c] for c in [0, *part]],
+                    rows=[[row[c] for c in [0, *part]] for row in table.rows]) for part in parts]
 
 
 def run_quietly(command: list[str], folder: Path) -> None:
@@ -183,7 +199,7 @@ def write_pdf(shown: dict[str, Any], drawn: Iterable[tuple[str, Any]], folder: P
         block_start_string='<%', block_end_string='%>', variable_start_string='<<',
         variable_end_string='>>', comment_start_string='<#', comment_end_string='#>',
         trim_blocks=True, lstrip_blocks=True)
-    environment.filters |= {'tex': tex, 'breakable': breakable}
+    environment.filters |= {'tex': tex, 'breakable': breakable, 'fitting': fitting}
     text = environment.get_template('bench.tex').render(shown | {'figures': set(names)})
     (folder / 'bench.tex').write_text(text, encoding='utf-8')
     for _ in range(2):  # the second time, long tables know their widths
