@@ -146,7 +146,7 @@ def main() -> int:
         require_output(arguments.output)
         if arguments.fresh:
             remove(plan, results)
-        measurement.measure(lambda line: print(line, flush=True))
+        measurement.measure()
         selected = plan.names()
     measured = Measured(read_results(results), selected)
     for path in write_report(measured, arguments.output):

@@ -80,10 +80,6 @@ class Run:
             return f'{folder}/{self.kind}'
         return f'{folder}/{self.kind}-{self.threads}-threads-{self.repeat}'
 
-    def __str__(self) -> str:
-        what = {RENDER: '', CONTROL: ', control'}.get(self.kind, f', {self.kind}')
-        return f'{self.kernel.name} on {self.scene.name}{what}'
-
 
 def unique(name: str, taken: Iterable[str]) -> str:
     names = [name, *(f'{name}-{number}' for number in range(2, 1000))]

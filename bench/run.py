@@ -12,7 +12,6 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime, timezone
 from functools import cache
@@ -261,29 +260,32 @@ class Measurement:
         assert result
         return result
 
-    def measure(self, say: Callable[[str], None]) -> None:
-        """Makes what is missing or out of date.
-
-        @param say is told of each run that was made, in one line
-        """
+    def measure(self) -> None:
+        """Makes what is missing or out of date; prints a line for each run that was made."""
         with locked(self.folder) as unfinished:
             for scene in self.plan.growth:
                 make_scene(scene)
             runs = self.missing()
             seconds: dict[tuple[str, str], float] = {}  # that a kernel took last, by scene
-            bar = tqdm(runs, disable=None if sys.stderr.isatty() else True,
-                       bar_format='{bar:20} {n_fmt}/{total_fmt} {desc}', leave=False)
-            for number, run in enumerate(runs):
-                left = sum(seconds.get((rest.scene.name, rest.kernel.name),
-                                       sum(seconds.values()) / len(seconds))
-                           for rest in runs[number:]) if seconds else math.nan
-                bar.set_description_str(f'{run}' + (f', {left / 60:.0f} min left' if seconds else ''))
-                if self.is_needed(run):  # until an earlier repeat failed
-                    result = self.make(run, unfinished)
-                    seconds[run.scene.name, run.kernel.name] = result.bench['seconds']
-                    say(f'{number + 1}/{len(runs)} {run}: {result.status} {result.message}')
-                bar.update()
-            bar.close()
+            with tqdm(total=len(runs), disable=not sys.stderr.isatty(), leave=False,
+                      bar_format='{bar:20} {n_fmt}/{total_fmt} {desc}') as bar:
+                for number, run in enumerate(runs):
+                    bar.set_description_str(f'{run.name}{time_left(runs[number:], seconds)}')
+                    if self.is_needed(run):  # until an earlier repeat failed
+                        result = self.make(run, unfinished)
+                        seconds[run.scene.name, run.kernel.name] = result.bench['seconds']
+                        tqdm.write(f'{number + 1}/{len(runs)} {run.name}: '
+                                   f'{result.status} {result.message}'.rstrip())
+                    bar.update()
+
+
+def time_left(runs: list[Run], seconds: dict[tuple[str, str], float]) -> str:
+    """By the time that a kernel took last on a scene, or the mean of all."""
+    if not seconds:
+        return ''
+    mean = sum(seconds.values()) / len(seconds)
+    left = sum(seconds.get((run.scene.name, run.kernel.name), mean) for run in runs)
+    return f', {left / 60:.0f} min left' if left >= 60 else f', {left:.0f} s left'
 
 
 def make_scene(scene: Scene) -> None:
