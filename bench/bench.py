@@ -14,6 +14,7 @@ THREAD_SCALING = ['conference']  # scenes that are rendered with fewer threads, 
 GROWTH = 'forest'  # a standard scene that is made of ever more triangles
 
 import argparse
+import math
 import os
 import re
 import signal
@@ -40,14 +41,18 @@ BENCH = ROOT / 'bench'
 DONE, FAILED, WRONG_USAGE = 0, 1, 2
 
 
-def positive(kind: type) -> object:
-    def parse(text: str) -> float:
-        value = kind(text)
-        if not value > 0:
-            raise argparse.ArgumentTypeError(f'{text} is not above 0')
-        return value
-    parse.__name__ = 'number'  # what argparse calls a text that is none
-    return parse
+def number(text: str) -> float:
+    value = float(text)
+    if not 0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f'{text} is not a number above 0')
+    return value
+
+
+def whole_number(text: str) -> int:
+    value = int(text)
+    if value < 1:
+        raise argparse.ArgumentTypeError(f'{text} is less than 1')
+    return value
 
 
 def size(text: str) -> str:
@@ -64,7 +69,6 @@ def parse_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog='bench.py', description=__doc__, epilog='The lists of '
                                      'scenes and kernels are at the beginning of bench/bench.py.')
     add = parser.add_argument
-    whole = positive(int)
     what = parser.add_mutually_exclusive_group()
     what.add_argument('--list', action='store_true', help='list scenes and kernels, and end')
     what.add_argument('--dry-run', action='store_true', help='print the runs to be made, and end')
@@ -77,12 +81,12 @@ def parse_arguments() -> argparse.Namespace:
     add('--scenes', metavar='A,B', type=names, help='names, scene files, or folders of them')
     add('--kernels', metavar='A,B', type=names, action='append',
         help="NAME or NAME:OPTION=VALUE; '*' for all others")
-    add('--repeats', metavar='N', type=whole, help='of each run, default 3')
-    add('--threads', metavar='N', type=whole, help='default: all that may be used')
-    add('--passes', metavar='N', type=whole, help='samples per pixel, default 16')
+    add('--repeats', metavar='N', type=whole_number, help='of each run, default 3')
+    add('--threads', metavar='N', type=whole_number, help='default: all that may be used')
+    add('--passes', metavar='N', type=whole_number, help='samples per pixel, default 16')
     add('--size', metavar='WxH', type=size, help='of the image, default 640x480')
-    add('--time-limit', metavar='SECONDS', type=positive(float), help='of one run, default 1800')
-    add('--memory-limit', metavar='GB', type=positive(float), help="of one run's address space, "
+    add('--time-limit', metavar='SECONDS', type=number, help='of one run, default 1800')
+    add('--memory-limit', metavar='GB', type=number, help="of one run's address space, "
         'default 0.9 times the memory of the machine')
     add('--results', metavar='DIR', type=Path,
         help='folder of results, default bench/results, or its folder quick')

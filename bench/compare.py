@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Two sets of results side by side."""
 
+from doubts import percent
 from figures import short
-from metrics import METRICS, Measured, are_equal
+from metrics import METRICS, RATE, Measured, are_equal
 
 
 def compare(measured: Measured, other: Measured) -> str:
@@ -27,6 +28,6 @@ def compare(measured: Measured, other: Measured) -> str:
     widths = [max(len(line[column]) for line in lines) for column in range(len(lines[0]))]
     table = ['  '.join(text.ljust(width) for text, width in zip(line, widths)).rstrip()
              for line in lines]
-    noises = [f'{100 * noise:.1f} %' if (noise := one.noise(METRICS[3])) is not None else 'unknown'
+    noises = [percent(share) if (share := one.noise(RATE)) is not None else 'unknown'
               for one in (measured, other)]
     return '\n'.join([*table, f'noise of rays per second: {noises[0]} here, {noises[1]} there'])

@@ -41,7 +41,7 @@ def boost() -> str:
     """'on', 'off', or empty where the machine does not tell."""
     state = first_line(CPU / 'cpufreq/boost')
     no_turbo = first_line(CPU / 'intel_pstate/no_turbo')
-    return {'1': 'on', '0': 'off'}.get(state) or {'0': 'on', '1': 'off'}.get(no_turbo, '')
+    return {'1': 'on', '0': 'off'}.get(state, {'0': 'on', '1': 'off'}.get(no_turbo, ''))
 
 
 def chosen(text: str) -> str:

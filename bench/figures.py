@@ -3,6 +3,7 @@
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 
 import matplotlib
 from matplotlib.axes import Axes
@@ -185,7 +186,7 @@ SCENE_FIGURES: dict[str, Callable[[Measured, str], Figure | None]] = {
 # ---- Over all scenes ----------------------------------------------------------------------------
 
 
-def relative(measured: Measured) -> Figure | None:
+def geometric_means(measured: Measured) -> Figure | None:
     """Geometric means over the scenes, by the reference kernel."""
     metrics = [TOTAL, INITIALIZE, RATE, RATE_H, RATE_V, RATE_MIXED, PEAK, FINAL]
     shown = [metric for metric in metrics
@@ -197,8 +198,8 @@ def relative(measured: Measured) -> Figure | None:
                                                len(measured.kernels)) * rows))
     all_axes = figure.subplots(rows, 2, squeeze=False).flat
     for axes, metric in zip(all_axes, shown):
-        means = [(kernel, mean[0]) for kernel in measured.kernels
-                 if (mean := measured.relative(metric, kernel))]
+        means = [(kernel, relative[0]) for kernel in measured.kernels
+                 if (relative := measured.relative(metric, kernel))]
         for place, (kernel, mean) in enumerate(means):
             index = measured.kernels.index(kernel) % len(COLOURS)
             axes.barh(place, mean, height=0.7, color=COLOURS[index], hatch=HATCHES[index],
@@ -310,8 +311,7 @@ def growth(measured: Measured) -> Figure | None:
     figure = Figure(figsize=(2 * WIDTH, 2.5))
     drawn = False
     for axes, metric in zip(figure.subplots(1, len(metrics)), metrics):
-        drawn |= _curves(axes, measured, lambda kernel, metric=metric:
-                         measured.by_triangles(metric, kernel))
+        drawn |= _curves(axes, measured, partial(measured.by_triangles, metric))
         axes.set_xscale('log')
         axes.set_yscale('log')
         axes.xaxis.set_major_formatter(FuncFormatter(si))
@@ -372,7 +372,7 @@ def break_even(measured: Measured) -> Figure | None:
 
 
 OVERALL_FIGURES: dict[str, Callable[[Measured], Figure | None]] = {
-    'relative': relative, 'speed-against-memory': speed_against_memory,
+    'relative': geometric_means, 'speed-against-memory': speed_against_memory,
     'thread-scaling': thread_scaling, 'growth': growth, 'break-even': break_even}
 
 
