@@ -63,6 +63,13 @@ def with_errors(measured: Measured, scene: str, kernel: str, text: str) -> str:
     return f'{text}, {si(wrong)} ppm wrong' if wrong else text
 
 
+def named(measured: Measured, kernel: str) -> str:
+    """A kernel with its wrong answers on the worst scene, where there are any."""
+    wrong = max((measured.wrong_per_million(scene, kernel) or 0 for scene in measured.scenes),
+                default=0)
+    return f'{kernel}, {si(wrong)} ppm wrong' if wrong else kernel
+
+
 def range_of(spread: Spread) -> list[list[float]]:
     """From the median down to the lowest and up to the highest, as matplotlib takes it."""
     return [[spread.median - spread.lowest], [spread.highest - spread.median]]
@@ -207,7 +214,7 @@ def geometric_means(measured: Measured) -> Figure | None:
             axes.annotate(short(mean), (mean, place), xytext=(4, 0), textcoords='offset points',
                           va='center', fontsize=8, bbox=BLANK)
         axes.axvline(1, color='black', linewidth=0.8, linestyle='--')
-        axes.set_yticks(range(len(means)), [kernel for kernel, _ in means])
+        axes.set_yticks(range(len(means)), [named(measured, kernel) for kernel, _ in means])
         axes.set_ylim(len(means) - 0.4, -0.6)
         axes.set_xlim(0, 1.2 * max(1, *(mean for _, mean in means)))
         better = {'up': 'more is better', 'down': 'less is better'}[metric.better]
@@ -233,7 +240,7 @@ def _curves(axes: Axes, measured: Measured,
         axes.errorbar([x for x, _ in points], [s.median for s in spreads], yerr=ranges,
                       color=COLOURS[index], marker=MARKERS[index], linestyle=LINES[index],
                       markeredgecolor='black', markeredgewidth=0.5, markersize=5, linewidth=1.2,
-                      ecolor='black', elinewidth=0.8, capsize=2, label=kernel)
+                      ecolor='black', elinewidth=0.8, capsize=2, label=named(measured, kernel))
         drawn = True
     axes.grid(linewidth=0.3)
     return drawn
@@ -258,7 +265,7 @@ def speed_against_memory(measured: Measured) -> Figure | None:
     for kernel, x, y in points:
         index = measured.kernels.index(kernel) % len(COLOURS)
         axes.plot(x, y, MARKERS[index], color=COLOURS[index], markeredgecolor='black',
-                  markeredgewidth=0.5, markersize=7, linestyle='', label=kernel)
+                  markeredgewidth=0.5, markersize=7, linestyle='', label=named(measured, kernel))
     for set_scale, axis in [(axes.set_xscale, axes.xaxis), (axes.set_yscale, axes.yaxis)]:
         set_scale('log')
         axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
@@ -351,7 +358,8 @@ def break_even(measured: Measured) -> Figure | None:
         for kernel in known:
             index = measured.kernels.index(kernel) % len(COLOURS)
             axes.plot(counts, [seconds(kernel, n) / best for n, best in zip(counts, fastest)],
-                      color=COLOURS[index], linestyle=LINES[index], linewidth=1.4, label=kernel)
+                      color=COLOURS[index], linestyle=LINES[index], linewidth=1.4,
+                      label=named(measured, kernel))
         axes.set_xscale('log')
         axes.set_yscale('log')
         axes.set_title(scene, loc='left', fontsize=8, style='italic', pad=2)

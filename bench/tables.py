@@ -39,6 +39,11 @@ def number(x: float, text: str | None = None, **more: object) -> Cell:
 NOTHING = Cell('\u2013')
 
 
+def wrong_answers(measured: Measured, scene: str, kernel: str) -> str:
+    wrong = measured.wrong_per_million(scene, kernel)
+    return f'{si(wrong)} ppm wrong' if wrong else ''
+
+
 def figure_cell(measured: Measured, metric: Metric, scene: str, kernel: str,
                 with_range: bool = False) -> Cell:
     """A median, with its wrong answers where there are any, or how the runs failed."""
@@ -46,12 +51,11 @@ def figure_cell(measured: Measured, metric: Metric, scene: str, kernel: str,
     if spread is None:
         failed = [run for run in measured.runs(scene, kernel, metric.kind) if not run.done]
         return Cell('', error=failed[0].status) if failed else NOTHING
-    wrong = measured.wrong_per_million(scene, kernel)
     text = short(spread.median)
     if with_range and not metric.is_exact:
         text += f' ({short(spread.lowest)}\u2013{short(spread.highest)})'
     return number(spread.median, text, is_best=kernel in measured.best(metric, scene),
-                  error=f'{si(wrong)} ppm wrong' if wrong else '')
+                  error=wrong_answers(measured, scene, kernel))
 
 
 def speed(measured: Measured) -> Table:
@@ -187,11 +191,9 @@ def break_even(measured: Measured) -> Table:
         if kernel == measured.reference or ahead is None:
             return NOTHING
         begin, end = ahead
-        if begin == math.inf:
-            return number(begin, 'never')
-        if end < math.inf:
-            return number(begin, f'up to {si(end)}')
-        return number(begin, f'from {si(begin)} on' if begin else 'always')
+        text = ('never' if begin == math.inf else f'up to {si(end)}' if end < math.inf
+                else f'from {si(begin)} on' if begin else 'always')
+        return number(begin, text, error=wrong_answers(measured, scene, kernel))
     return Table(f'Rays for which a kernel is done before {measured.reference}, building included',
                  ['scene', *measured.kernels],
                  [[Cell(scene), *(cell(scene, kernel) for kernel in measured.kernels)]
