@@ -140,7 +140,7 @@ def content(measured: Measured, folder: Path) -> dict[str, Any]:
 
 # ---- LaTeX --------------------------------------------------------------------------------------
 
-LINE = 134  # characters that a line of a table holds, about
+LINE, CHARACTER, GAP = 495, 3.8, 8  # widths in a table: of all, of a character, of a gap, in points
 
 SPECIAL = {'\\': r'\textbackslash{}', '~': r'\textasciitilde{}', '^': r'\textasciicircum{}',
            '-': '-{}', '\u2212': '$-$', '\u2013': '--', '\u2019': "'", '<': r'\textless{}',
@@ -166,9 +166,9 @@ def breakable(text: str) -> str:
 
 def fitting(table: tables.Table) -> list[tables.Table]:
     """Tables with some of the columns each, so that they fit the page; the first is in all."""
-    def width(column: int) -> int:
+    def width(column: int) -> float:
         texts = [' '.join([row[column].text, row[column].error]).strip() for row in table.rows]
-        return 2 + max(map(len, [table.columns[column], *texts]))
+        return GAP + CHARACTER * max(map(len, [table.columns[column], *texts]))
     parts: list[list[int]] = [[]]
     for column in range(1, len(table.columns)):
         if parts[-1] and width(0) + sum(map(width, [*parts[-1], column])) > LINE:
