@@ -15,10 +15,8 @@ class YourKernel : public RTKernel {
         const WatertightRay watertightRay(V3d(ray.origin), V3d(ray.direction));
         std::optional<Hit> nearest;
         for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-            if (!hasArea(triangles_[i]))
-                continue;
             const std::optional<double> t = watertightRay.intersect(triangles_[i]);
-            if (!t)
+            if (!t || !hasArea(triangles_[i]))
                 continue;
             const auto distance = static_cast<float>(*t);
             if (distance > 0 && std::isfinite(distance) &&
