@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-only
-"""Runs fuzz programs one after the other, each for some seconds from its corpus.
+"""Runs fuzz programs side by side, each for some seconds from its corpus.
 
 Ends with status 1 where one of them found something. The input that showed it lies beside the
 program then, and its output tells what is wrong.
@@ -14,6 +14,7 @@ import re
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -29,7 +30,7 @@ def fuzz(program: Path, seconds: int) -> bool:
     with tempfile.TemporaryDirectory(dir=IN_MEMORY if IN_MEMORY.is_dir() else None) as scratch:
         new_inputs = Path(scratch) / 'new-inputs'
         new_inputs.mkdir()
-# The program adds inputs to the first folder and only reads from the others.
+        # The program adds inputs to the first folder and only reads from the others.
         result = subprocess.run(
             [program, f'-max_total_time={seconds}', *LIMITS, f'-artifact_prefix={program}-',
              *([f'-dict={dictionary}'] if dictionary.exists() else []),
@@ -49,7 +50,10 @@ def main() -> int:
     parser.add_argument('seconds', type=int)
     parser.add_argument('programs', nargs='+', type=Path)
     arguments = parser.parse_args()
-    return 0 if all([fuzz(program, arguments.seconds) for program in arguments.programs]) else 1
+    with ThreadPoolExecutor(os.cpu_count()) as side_by_side:
+        results = list(side_by_side.map(lambda program: fuzz(program, arguments.seconds),
+                                        arguments.programs))
+    return 0 if all(results) else 1
 
 
 if __name__ == '__main__':
