@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-only
-"""Runs test programs and the Python tests; ends with the line 'N passed, N failed'.
+"""Runs test programs and the Python tests side by side; ends with the line 'N passed, N failed'.
 
 usage: run.py [--no-program-tests] [TEST_PROGRAM ...]
 """
@@ -19,6 +19,13 @@ HERE = Path(__file__).resolve().parent
 PYTHON_TESTS = [HERE / 'program', HERE.parents[1] / 'scenes' / 'test']
 
 
+def python_tests() -> list[Path]:
+    files = [file for folder in PYTHON_TESTS for file in sorted(folder.glob('test_*.py'))]
+    if not files:
+        sys.exit('run.py: the Python tests are missing')
+    return files
+
+
 def counts(report: Path, status: int) -> tuple[int, int, int]:
     """Passed, failed and skipped of a JUnit report. A run that died counts as one failure."""
     if not report.exists():
@@ -34,32 +41,28 @@ def counts(report: Path, status: int) -> tuple[int, int, int]:
     return total - failed - skipped, failed, skipped
 
 
-def heading(name: str) -> bytes:
-    return f'--- {name}\n'.encode()
-
-
-def run_program(program: str, folder: str) -> tuple[int, int, int]:
-    """Keeps the output together: another program may run at the same time."""
-    report = Path(folder) / f'{Path(program).name}.xml'
-    result = subprocess.run([program, '--gtest_brief=1', f'--gtest_output=xml:{report}'],
-                            check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    sys.stdout.buffer.write(heading(Path(program).name) + result.stdout)
+def run(name: str, command: list, report: Path) -> tuple[int, int, int]:
+    """Keeps the output together: other tests run at the same time."""
+    result = subprocess.run(command, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    sys.stdout.buffer.write(f'--- {name}\n'.encode() + result.stdout)
     sys.stdout.flush()
     return counts(report, result.returncode)
 
 
-def run_pytest(folder: str) -> tuple[int, int, int]:
-    report = Path(folder) / 'pytest.xml'
-    sys.stdout.buffer.write(heading('pytest'))
-    sys.stdout.flush()
-    result = subprocess.run([sys.executable, '-m', 'pytest', '-q', '-rs', '-p', 'no:cacheprovider',
-                             f'--junitxml={report}', *map(str, PYTHON_TESTS)], check=False)
-    return counts(report, result.returncode)
+def run_program(program: Path, folder: Path) -> tuple[int, int, int]:
+    report = folder / f'{program.name}.xml'
+    return run(program.name, [program, '--gtest_brief=1', f'--gtest_output=xml:{report}'], report)
+
+
+def run_pytest(file: Path, folder: Path) -> tuple[int, int, int]:
+    report = folder / f'{file.parent.name}-{file.stem}.xml'
+    return run(file.name, [sys.executable, '-m', 'pytest', '-q', '-rs', '-p', 'no:cacheprovider',
+                           f'--junitxml={report}', file], report)
 
 
 def main() -> int:
     parser = argparse.ArgumentParser()
-    parser.add_argument('programs', nargs='*')
+    parser.add_argument('programs', nargs='*', type=Path)
     parser.add_argument('--no-program-tests', action='store_true')
     arguments = parser.parse_args()
     if arguments.no_program_tests and not arguments.programs:
@@ -73,12 +76,14 @@ def main() -> int:
     # for each other. It is not instrumented, so that its own memory would look like races.
     os.environ['ASAN_OPTIONS'] = 'allocator_may_return_null=1'
     os.environ['TSAN_OPTIONS'] = 'allocator_may_return_null=1:ignore_noninstrumented_modules=1'
-    with tempfile.TemporaryDirectory() as folder:
-        with ThreadPoolExecutor(os.cpu_count()) as side_by_side:
-            results = list(side_by_side.map(lambda program: run_program(program, folder),
-                                            arguments.programs))
-        if not arguments.no_program_tests:
-            results.append(run_pytest(folder))
+    files = [] if arguments.no_program_tests else python_tests()
+    with (tempfile.TemporaryDirectory() as scratch,
+          ThreadPoolExecutor(os.cpu_count()) as side_by_side):
+        folder = Path(scratch)
+        running = [side_by_side.submit(run_program, program, folder)
+                   for program in arguments.programs]
+        running += [side_by_side.submit(run_pytest, file, folder) for file in files]
+        results = [test.result() for test in running]
     passed, failed, skipped = (sum(column) for column in zip(*results))
     if skipped:
         print(f'{skipped} skipped')
