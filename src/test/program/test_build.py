@@ -48,7 +48,7 @@ def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A copy of the project, with a copy of the template kernel named my-kernel."""
     folder = tmp_path_factory.mktemp('copy') / 'bwfirt'
     # copy2 keeps the times of files, and with them what is already built.
-    shutil.copytree(ROOT, folder, ignore=shutil.ignore_patterns('.git', 'results'))
+    shutil.copytree(ROOT, folder, ignore=shutil.ignore_patterns('.git', 'results', '__pycache__'))
     shutil.copytree(folder / 'src/kernel/yourkernel', folder / 'src/kernel/my-kernel')
     return folder
 
