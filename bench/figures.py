@@ -54,7 +54,7 @@ def si(x: float, _: object = None) -> str:
 
 def row_height(measured: Measured) -> float:
     """In inches, so that the figures of a scene fit a page."""
-    return 0.21 if len(measured.kernels) <= 4 else 0.15
+    return 0.21 if len(measured.kernels) <= 4 else 0.13
 
 
 def with_errors(measured: Measured, scene: str, kernel: str, text: str) -> str:
@@ -134,6 +134,10 @@ def total_time(measured: Measured, scene: str) -> Figure | None:
                       'seconds (dark: of these, initialisation)', below=INITIALIZE)
 
 
+def initialisation(measured: Measured, scene: str) -> Figure | None:
+    return _bar_chart(measured, scene, [INITIALIZE], 'Initialisation', 'seconds')
+
+
 def ray_rates(measured: Measured, scene: str) -> Figure | None:
     return _bar_chart(measured, scene, [RATE, RATE_H, RATE_V, RATE_MIXED], 'Rays per second',
                       'million per second')
@@ -187,7 +191,7 @@ def numerical_comparison(measured: Measured, scene: str) -> Figure | None:
 
 
 SCENE_FIGURES: dict[str, Callable[[Measured, str], Figure | None]] = {
-    'total-time': total_time, 'ray-rates': ray_rates, 'memory': memory,
+    'total-time': total_time, 'initialisation': initialisation, 'ray-rates': ray_rates, 'memory': memory,
     'numerical-comparison': numerical_comparison}
 
 # ---- Over all scenes ----------------------------------------------------------------------------
@@ -205,24 +209,26 @@ def geometric_means(measured: Measured) -> Figure | None:
                                                len(measured.kernels)) * rows))
     all_axes = figure.subplots(rows, 2, squeeze=False).flat
     for axes, metric in zip(all_axes, shown):
-        means = [(kernel, relative[0]) for kernel in measured.kernels
-                 if (relative := measured.relative(metric, kernel))]
-        for place, (kernel, mean) in enumerate(means):
+        ratios = [(kernel, spread) for kernel in measured.kernels
+                  if (spread := measured.relative(metric, kernel))]
+        for place, (kernel, spread) in enumerate(ratios):
             index = measured.kernels.index(kernel) % len(COLOURS)
+            mean = spread.geometric_mean
             axes.barh(place, mean, height=0.7, color=COLOURS[index], hatch=HATCHES[index],
-                      edgecolor='black', linewidth=0.5)
-            axes.annotate(short(mean), (mean, place), xytext=(4, 0), textcoords='offset points',
-                          va='center', fontsize=8, bbox=BLANK)
+                      edgecolor='black', linewidth=0.5,
+                      xerr=[[mean - spread.lowest], [spread.highest - mean]], **ERROR_BARS)
+            axes.annotate(short(mean), (spread.highest, place), xytext=(4, 0),
+                          textcoords='offset points', va='center', fontsize=8, bbox=BLANK)
         axes.axvline(1, color='black', linewidth=0.8, linestyle='--')
-        axes.set_yticks(range(len(means)), [named(measured, kernel) for kernel, _ in means])
-        axes.set_ylim(len(means) - 0.4, -0.6)
-        axes.set_xlim(0, 1.2 * max(1, *(mean for _, mean in means)))
+        axes.set_yticks(range(len(ratios)), [named(measured, kernel) for kernel, _ in ratios])
+        axes.set_ylim(len(ratios) - 0.4, -0.6)
+        axes.set_xlim(0, 1.2 * max(1, *(spread.highest for _, spread in ratios)))
         better = {'up': 'more is better', 'down': 'less is better'}[metric.better]
         axes.set_title(f'{metric.name} ({better})', loc='left', fontsize=8, style='italic', pad=2)
     for axes in list(all_axes)[len(shown):]:
         axes.set_axis_off()
-    figure.suptitle(f'Geometric means over all scenes, relative to {measured.reference}',
-                    fontsize=9, fontweight='bold')
+    figure.suptitle(f'Geometric means over all scenes, relative to {measured.reference}, with the '
+                    'scenes of the least and the greatest ratio', fontsize=9, fontweight='bold')
     return figure
 
 
@@ -254,18 +260,22 @@ def _legend(figure: Figure) -> None:
 
 
 def speed_against_memory(measured: Measured) -> Figure | None:
-    """Geometric means, by the reference kernel."""
+    """Geometric means over the scenes, relative to the reference, with the range over the scenes."""
     figure = Figure(figsize=(WIDTH, 2.6))
     axes = figure.subplots()
-    points = [(kernel, memory[0], speed[0]) for kernel in measured.kernels
+    points = [(kernel, memory, speed) for kernel in measured.kernels
               if (memory := measured.relative(FINAL, kernel))
               and (speed := measured.relative(RATE, kernel))]
     if len(points) < 2:
         return None
-    for kernel, x, y in points:
+    for kernel, memory, speed in points:
         index = measured.kernels.index(kernel) % len(COLOURS)
-        axes.plot(x, y, MARKERS[index], color=COLOURS[index], markeredgecolor='black',
-                  markeredgewidth=0.5, markersize=7, linestyle='', label=named(measured, kernel))
+        x, y = memory.geometric_mean, speed.geometric_mean
+        axes.errorbar(x, y, xerr=[[x - memory.lowest], [memory.highest - x]],
+                      yerr=[[y - speed.lowest], [speed.highest - y]], color=COLOURS[index],
+                      marker=MARKERS[index], markeredgecolor='black', markeredgewidth=0.5,
+                      markersize=7, linestyle='', ecolor='black', elinewidth=0.6, capsize=2,
+                      label=named(measured, kernel))
     for set_scale, axis in [(axes.set_xscale, axes.xaxis), (axes.set_yscale, axes.yaxis)]:
         set_scale('log')
         axis.set_major_locator(LogLocator(subs=(1, 2, 5)))

@@ -63,7 +63,7 @@ METRICS = [TOTAL, INITIALIZE, RENDERING, RATE, RATE_H, RATE_V, RATE_MIXED, PEAK,
 
 @dataclass(frozen=True)
 class Spread:
-    """Of repeated measurements of one figure."""
+    """Of repeated measurements of one figure, or of one figure over several scenes."""
 
     samples: tuple[float, ...]
 
@@ -78,6 +78,10 @@ class Spread:
     @property
     def highest(self) -> float:
         return max(self.samples)
+
+    @property
+    def geometric_mean(self) -> float:
+        return statistics.geometric_mean(self.samples)
 
     @property
     def relative_range(self) -> float:
@@ -203,15 +207,15 @@ class Measured:
         return [kernel for kernel in right
                 if kernel == best or self.is_equal(metric, scene, kernel, best)]
 
-    def relative(self, metric: Metric, kernel: str) -> tuple[float, int] | None:
-        """The geometric mean of a kernel's figures by those of the reference, and how many scenes.
+    def relative(self, metric: Metric, kernel: str) -> Spread | None:
+        """A kernel's figures by those of the reference, one for each scene.
 
-        Over the scenes where both have one and the kernel answers rightly. None where there is none.
+        Of the scenes where both have one and the kernel answers rightly. None where there is none.
         """
         pairs = [(self.median(metric, scene, kernel), self.median(metric, scene, self.reference))
                  for scene in self.scenes if not self.wrong_per_million(scene, kernel)]
-        ratios = [a / b for a, b in pairs if a > 0 and b > 0]
-        return (statistics.geometric_mean(ratios), len(ratios)) if ratios else None
+        ratios = tuple(a / b for a, b in pairs if a > 0 and b > 0)
+        return Spread(ratios) if ratios else None
 
     def ahead(self, scene: str, kernel: str, other: str) -> tuple[float, float] | None:
         """For how many rays, from and to, a kernel is done before another, building included.

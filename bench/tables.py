@@ -77,7 +77,7 @@ def kernels(measured: Measured) -> Table:
         relative = measured.relative(metric, kernel)
         if relative is None:
             return NOTHING
-        value, scenes = relative
+        value, scenes = relative.geometric_mean, len(relative.samples)
         return number(value, short(value) + (f' [{scenes}]' if scenes < len(measured.scenes) else ''))
 
     def row(kernel: str) -> list[Cell]:
