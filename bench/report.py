@@ -23,6 +23,7 @@ from metrics import METRICS, Measured
 from pictures import Difference, difference
 from plan import RECORDER, REPLAY
 from results import Result
+from web import write_html
 
 TEMPLATES = Path(__file__).resolve().parent / 'templates'
 LATEX = [('pdflatex', 'texlive-latex-recommended and lmodern'),
@@ -270,14 +271,14 @@ def require_output(base: Path) -> None:
 
 
 def write_report(measured: Measured, base: Path) -> list[Path]:
-    """Writes BASE.csv and BASE.pdf; gives their paths.
+    """Writes BASE.csv, BASE.html and BASE.pdf; gives their paths.
 
     @throws ReportError where there are no results, or LaTeX fails; the other files are written then
     """
     if not measured.results:
         raise ReportError('there are no results to report')
     require_output(base)
-    paths = [base.with_suffix(ending) for ending in ['.csv', '.pdf']]
+    paths = [base.with_suffix(ending) for ending in ['.csv', '.html', '.pdf']]
     os.environ['SOURCE_DATE_EPOCH'] = str(int(moment(measured).timestamp()))
     os.environ['FORCE_SOURCE_DATE'] = '1'
     write_atomically(paths[0], write_csv(measured).encode())
@@ -285,5 +286,6 @@ def write_report(measured: Measured, base: Path) -> list[Path]:
         folder = Path(name)
         shown = content(measured, folder)
         drawn = list(figures.draw_all(measured))
-        write_atomically(paths[1], write_pdf(shown, drawn, folder))
+        write_atomically(paths[1], write_html(shown, drawn))
+        write_atomically(paths[2], write_pdf(shown, drawn, folder))
     return paths

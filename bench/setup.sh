@@ -9,6 +9,7 @@ packages='
     libimath-dev libopenexr-dev libpng-dev libxxhash-dev libcli11-dev nlohmann-json3-dev
     libassimp-dev libgtest-dev
     python3-numpy python3-pytest
+    chromium chromium-driver python3-selenium
     python3-matplotlib python3-jinja2 python3-tqdm python3-imageio libfreeimage3
     texlive-latex-base texlive-latex-recommended texlive-font-utils lmodern
 '
