@@ -114,7 +114,7 @@ function startComparison(form) {
             difference: () => {
                 const differing = drawDifference(canvas, imageA, imageB, factor.value);
                 return `|${first.text} − ${second.text}| of the displayed sRGB values, times ` +
-                    `${factor.value}: ${differing} pixels differ in them.`;
+                    `${factor.value}: ${differing} of ${canvas.width * canvas.height} pixels differ.`;
             },
         }[view.value]();
         const sentences = new Set([sentence, first.dataset.differs, second.dataset.differs]);
@@ -133,11 +133,12 @@ function startComparison(form) {
         }
     }
 
-    form.addEventListener('input', show);
+    form.addEventListener('input', show);  // while the line moves
+    form.addEventListener('change', show);
     form.addEventListener('submit', event => event.preventDefault());
     flip.addEventListener('click', flipOver);
     frame.style.aspectRatio = images[0].naturalWidth / images[0].naturalHeight;  // at each zoom
-    zoom.addEventListener('input', () => zoomTo(Number(zoom.value), stage, frame, images[0]));
+    zoom.addEventListener('change', () => zoomTo(Number(zoom.value), stage, frame, images[0]));
     stage.addEventListener('pointerdown', moveLine);
     stage.addEventListener('pointermove', moveLine);
     stage.addEventListener('click', () => view.value === 'flip' && flipOver());
