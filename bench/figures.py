@@ -26,8 +26,9 @@ WIDTH = 3.35  # inches, half the width of the text
 
 # Okabe and Ito's colours, which colour-blind people tell apart, but for a darker yellow; in an order
 # in which neighbours differ in grey, too. Markers, lines and hatches tell apart what is left.
+# Hatches are of lines alone: dots and circles would make most of the bytes of an SVG figure.
 COLOURS = ['#0072B2', '#E69F00', '#009E73', '#DDCC33', '#D55E00', '#56B4E9', '#CC79A7', '#777777']
-HATCHES = ['', '////', '....', 'xxxx', '\\\\\\\\', '++++', 'oooo', '----']
+HATCHES = ['', '////', '||||', 'xxxx', '\\\\\\\\', '++++', '//', '----']
 MARKERS = 'osD^vP*X'
 LINES = ['-', '--', '-.', ':', (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), (0, (7, 3))]
 DARK = '#333333'
