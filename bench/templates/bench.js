@@ -113,8 +113,9 @@ function startComparison(form) {
             flip: () => `Shown: ${isFlipped ? `B, ${second.text}` : `A, ${first.text}`}.`,
             difference: () => {
                 const differing = drawDifference(canvas, imageA, imageB, factor.value);
+                const count = canvas.width * canvas.height;
                 return `|${first.text} − ${second.text}| of the displayed sRGB values, times ` +
-                    `${factor.value}: ${differing} of ${canvas.width * canvas.height} pixels differ.`;
+                    `${factor.value}: ${differing} of ${count} pixels differ.`;
             },
         }[view.value]();
         const sentences = new Set([sentence, first.dataset.differs, second.dataset.differs]);
@@ -151,4 +152,6 @@ function startComparison(form) {
     show();
 }
 
-addEventListener('load', () => document.querySelectorAll('form.comparison').forEach(startComparison));
+addEventListener('load', () => {  // images have their sizes then
+    document.querySelectorAll('form.comparison').forEach(startComparison);
+});

@@ -247,7 +247,8 @@ def test_images_that_are_the_same_are_embedded_once(kernels: Chrome) -> None:
 
 
 def test_slider_moves_the_line_between_the_images(kernels: Chrome) -> None:
-    assert texts(kernels, '.shown')[0].startswith('Left of the line: simple-bvh; right of it: wrong.')
+    said = one(kernels, '.shown').text
+    assert said.startswith('Left of the line: simple-bvh; right of it: wrong.')
     line, second = one(kernels, '[name=line]'), every(kernels, '.stage img')[1]
     assert second.value_of_css_property('clip-path') == 'inset(0px 0px 0px 50%)'
     line.send_keys(Keys.END)
