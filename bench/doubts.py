@@ -26,7 +26,8 @@ def missing_control(measured: Measured) -> Iterator[str]:
 
 def few_repeats(measured: Measured) -> Iterator[str]:
     fewest = min((len(runs) for scene in measured.scenes for kernel in measured.kernels
-                  if (runs := measured.runs(scene, kernel))), default=0)
+                  if measured.spread(RATE, scene, kernel)
+                  and (runs := measured.runs(scene, kernel))), default=0)
     if 0 < fewest < ENOUGH_REPEATS:
         yield (f'Too few repeats: {fewest} for some kernel and scene, fewer than {ENOUGH_REPEATS}. '
                'Medians and ranges of so few mean little.')
@@ -125,9 +126,18 @@ def answers(measured: Measured) -> Iterator[str]:
                        'same seed are not the same.')
 
 
+def leaks(measured: Measured) -> Iterator[str]:
+    for kernel in measured.kernels:
+        most = max((result.report['memory']['kernel_leaked_bytes'] for result in measured.results
+                    if result.kernel == kernel and result.done), default=0)
+        if most > 0:
+            yield f'{kernel} leaked memory: up to {most} bytes in a run.'
+
+
 def kernel_warnings(measured: Measured) -> Iterator[str]:
     """What the run reports warn of, each sentence once, but for what is told otherwise."""
-    told = ['the rays were recorded meanwhile', 'answers differ from', 'rates measured for']
+    told = ['the rays were recorded meanwhile', 'answers differ from', 'rates measured for',
+            'the kernel leaked']
     scenes: dict[tuple[str, str], list[str]] = {}
     for result in measured.results:
         for warning in result.report.get('warnings', []):
@@ -141,7 +151,7 @@ def kernel_warnings(measured: Measured) -> Iterator[str]:
 
 CHECKS: list[Callable[[Measured], Iterator[str]]] = [
     missing_control, few_repeats, wide_spread, load, machine, sessions, builds, extent, answers,
-    kernel_warnings]
+    leaks, kernel_warnings]
 
 
 def doubts(measured: Measured) -> list[str]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from plan import CONTROL, RECORD, RECORDER, RENDER, REPLAY
-from results import Result
+from results import NOT_MADE, Result
 
 Report = dict[str, Any]
 REFERENCE = 'funky-kd'  # that others are measured by in means over scenes
@@ -162,6 +162,15 @@ class Measured:
         counts = replay.report['replay']['answers_per_million']
         return sum(counts[name] for name in WRONG_ANSWERS)
 
+    def is_right(self, scene: str, kernel: str) -> bool:
+        """Whether nothing is known against its answers, as wrong ones or a replay that failed.
+
+        Nothing is where nobody asked, for want of a ray stream.
+        """
+        replays = self.runs(scene, kernel, REPLAY)
+        return (all(run.done or run.status == NOT_MADE for run in replays)
+                and not self.wrong_per_million(scene, kernel))
+
     def noise(self, metric: Metric) -> float | None:
         """How far a kernel may differ from itself: the largest |ratio of medians - 1| over scenes.
 
@@ -199,7 +208,7 @@ class Measured:
     def best(self, metric: Metric, scene: str) -> list[str]:
         """The kernels that none is better than, of those that answer rightly."""
         right = [kernel for kernel in self.kernels if self.spread(metric, scene, kernel)
-                 and not self.wrong_per_million(scene, kernel)]
+                 and self.is_right(scene, kernel)]
         if not right:
             return []
         choose = max if metric.better == 'up' else min
@@ -210,10 +219,11 @@ class Measured:
     def relative(self, metric: Metric, kernel: str) -> Spread | None:
         """A kernel's figures by those of the reference, one for each scene.
 
-        Of the scenes where both have one and the kernel answers rightly. None where there is none.
+        Of the scenes where both have one and answer rightly. None where there is none.
         """
         pairs = [(self.median(metric, scene, kernel), self.median(metric, scene, self.reference))
-                 for scene in self.scenes if not self.wrong_per_million(scene, kernel)]
+                 for scene in self.scenes
+                 if self.is_right(scene, kernel) and self.is_right(scene, self.reference)]
         ratios = tuple(a / b for a, b in pairs if a > 0 and b > 0)
         return Spread(ratios) if ratios else None
 
@@ -221,12 +231,14 @@ class Measured:
         """For how many rays, from and to, a kernel is done before another, building included.
 
         Its time for n rays is initialize + n / rate. (0, inf): always; (inf, inf): never. None
-        where one of them has no figures.
+        where one of them has no figures or answers wrongly.
         """
         build, rate = (self.median(metric, scene, kernel) for metric in (INITIALIZE, RATE))
         other_build, other_rate = (self.median(metric, scene, other)
                                    for metric in (INITIALIZE, RATE))
         if not all(map(math.isfinite, [build, rate, other_build, other_rate])):
+            return None
+        if not self.is_right(scene, kernel) or not self.is_right(scene, other):
             return None
         if build <= other_build and rate >= other_rate:
             return 0, math.inf

@@ -11,6 +11,10 @@ from numpy.typing import NDArray
 BRIGHTEST = 0.5  # of a difference image, in linear intensity
 
 
+class BadImage(Exception):
+    """An image that is missing, unreadable or of another size."""
+
+
 @dataclass(frozen=True)
 class Difference:
     """How an image differs from the one that it is compared with."""
@@ -24,6 +28,23 @@ class Difference:
 def read_linear(path: Path) -> NDArray[np.float32]:
     """The RGB values of an OpenEXR file, as (height, width, 3)."""
     return np.asarray(imageio.imread(path, format='EXR-FI'))[..., :3]
+
+
+def check_images(base: Path, width: int, height: int) -> None:
+    """Whether BASE.exr and BASE.png can be shown.
+
+    @throws BadImage
+    """
+    for ending, image_format in [('.exr', 'EXR-FI'), ('.png', 'PNG-PIL')]:
+        name = f'{base.name}{ending}'
+        try:
+            found = imageio.imread(f'{base}{ending}', format=image_format).shape
+        except FileNotFoundError:
+            raise BadImage(f'{name}: there is none') from None
+        except Exception as error:  # of any type, depending on the library that reads the image
+            raise BadImage(f'{name}: {error}') from None
+        if found != (height, width, 3):
+            raise BadImage(f'{name} has the shape {found}, not {(height, width, 3)}')
 
 
 def to_srgb(linear: NDArray[np.float32]) -> NDArray[np.uint8]:

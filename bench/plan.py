@@ -2,7 +2,7 @@
 """What is measured: scenes, kernels, and the runs that a benchmark consists of."""
 
 import os
-import shlex
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +10,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 RECORDER = 'simple-bvh'  # its answers and its image are those that others are compared with
 TEMPLATE = 'yourkernel'
+WORD = re.compile(r'#.*|"([^"\n]*)"|([^\s#]+)')  # of a scene file, as doc/file-formats says
 RENDER, CONTROL, RECORD, REPLAY = 'render', 'control', 'record', 'replay'
 
 
@@ -41,12 +42,14 @@ class Scene:
 
     @property
     def triangles(self) -> Path:
-        """The triangle file that the scene file names, as doc/file-formats says."""
-        for line in self.file.read_text(encoding='utf-8', errors='surrogateescape').splitlines():
-            words = shlex.split(line, comments=True)
-            if words[:1] == ['triangles'] and len(words) > 1:
-                return self.file.parent / words[1]
-        raise OSError(f'{self.file}: names no triangles')
+        """The triangle file that the scene file names; the scene file itself where it names none."""
+        try:
+            text = self.file.read_text(encoding='utf-8', errors='surrogateescape')
+        except OSError:
+            return self.file
+        words = [quoted or word for quoted, word in WORD.findall(text) if quoted or word]
+        named = [path for key, path in zip(words, words[1:]) if key == 'triangles']
+        return self.file.parent / named[0] if named else self.file
 
 
 @dataclass(frozen=True)
@@ -75,7 +78,8 @@ class Run:
     @property
     def name(self) -> str:
         """The path of its results below the folder of results, without an ending."""
-        folder = f'{self.scene.name}/{self.kernel.name}'
+        kernel = self.kernel.name.replace('/', '%')  # its options may name a file
+        folder = f'{self.scene.name}/{kernel}'
         if self.kind in (RECORD, REPLAY):
             return f'{folder}/{self.kind}'
         return f'{folder}/{self.kind}-{self.threads}-threads-{self.repeat}'
@@ -122,7 +126,8 @@ def find_scenes(entries: Iterable[str]) -> list[Scene]:
 
 def built_kernels(build: Path) -> list[str]:
     return sorted(program.name.removeprefix('bwfirt-') for program in build.glob('bwfirt-*')
-                  if program.name != 'bwfirt-import' and os.access(program, os.X_OK))
+                  if program.name != 'bwfirt-import' and program.is_file()
+                  and os.access(program, os.X_OK))
 
 
 def find_kernels(entries: Iterable[str], build: Path) -> list[Kernel]:

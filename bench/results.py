@@ -16,8 +16,13 @@ from pathlib import Path
 from typing import Any
 
 DONE = 'done'
+NOT_MADE = 'not made'  # for want of what another run should have made
 LOCK = '.lock'
 UNFINISHED = '.unfinished'  # a folder for the files of the run under way
+ENDINGS = ['.txt', '.exr', '.png', '.rays']  # of the files of a run that are kept, besides .json
+KEYS = ['scene', 'kernel', 'kind', 'threads', 'repeat', 'status', 'message', 'fingerprint']
+MORE_KEYS = ['scale', 'command', 'arguments', 'session', 'started', 'seconds', 'machine',
+             'disturbance']
 
 
 class ResultsError(Exception):
@@ -54,8 +59,9 @@ def read_result(path: Path) -> Result | None:
     try:
         report = json.loads(path.read_text(encoding='utf-8'))
         bench = report.pop('bench')
-        fields = {key: bench[key] for key in ['scene', 'kernel', 'kind', 'threads', 'repeat',
-                                              'status', 'message', 'fingerprint']}
+        fields = {key: bench[key] for key in KEYS}
+        if not all(key in bench for key in MORE_KEYS):
+            return None
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return None
     return Result(folder=path.parent, name=path.name.removesuffix('.json'), bench=bench,
@@ -79,17 +85,33 @@ def read_results(folder: Path) -> list[Result]:
 def write_result(path: Path, report: dict[str, Any], bench: dict[str, Any], folder: Path) -> None:
     """Moves a run's files from a folder to PATH.*, and writes PATH.json last, in one step.
 
+    Nothing remains of an older result, nor of other files in the folder.
+
     @param path without an ending
     """
     path.parent.mkdir(parents=True, exist_ok=True)
-    for file in folder.iterdir():
-        os.replace(file, f'{path}{file.suffix}')
+    Path(f'{path}.json').unlink(missing_ok=True)
+    for ending in ENDINGS:
+        if (file := folder / f'run{ending}').is_file():
+            os.replace(file, f'{path}{ending}')
+        else:
+            Path(f'{path}{ending}').unlink(missing_ok=True)
     unfinished = folder / 'result.json'
     with open(unfinished, 'w', encoding='utf-8') as stream:
         json.dump({**report, 'bench': bench}, stream, indent=2)
         stream.flush()
         os.fsync(stream.fileno())
     os.replace(unfinished, f'{path}.json')
+    clear(folder)
+
+
+def clear(folder: Path) -> None:
+    """Removes all that is in it."""
+    for path in folder.iterdir():
+        if path.is_dir() and not path.is_symlink():
+            shutil.rmtree(path)
+        else:
+            path.unlink()
 
 
 @contextmanager

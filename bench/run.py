@@ -1,15 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Makes the runs of a plan that are missing or out of date."""
 
-import ctypes
 import hashlib
-import json
 import math
 import os
-import resource
 import shutil
-import signal
-import subprocess
 import sys
 import time
 from dataclasses import dataclass
@@ -21,118 +16,30 @@ from typing import Any
 from tqdm import tqdm
 
 import environment
-from metrics import METRICS
+from pictures import BadImage, check_images
 from plan import RECORD, RECORDER, RENDER, CONTROL, REPLAY, ROOT, Plan, Run, Scene
-from results import DONE, Result, locked, read_result, write_result
+from process import Limits, Outcome, run_process
+from results import (DONE, NOT_MADE, Result, ResultsError, clear, locked, read_result,
+                     write_result)
+from runreport import BadReport, read_report
 
-PR_SET_PDEATHSIG = 1
-CRASHES = {signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL}
 WARM_UP = ['--passes', '1', '--size', '64x48']
-
-
-@dataclass(frozen=True)
-class Limits:
-    """Of one process."""
-
-    seconds: float
-    bytes: int  # address space
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """How a process ended."""
-
-    status: str
-    message: str = ''
+SPARE_BYTES = 2**24  # that have to be left on the disk before a run, besides its ray stream
+BYTES_OF_A_QUESTION = 36  # of a ray stream
 
 
 @cache
-def sha256(path: Path) -> str:
+def _sha256(path: Path, _modified: int, _size: int) -> str:
     with open(path, 'rb') as stream:
         return hashlib.file_digest(stream, 'sha256').hexdigest()
 
 
 def checksum(path: Path) -> str:
-    return sha256(path) if path.is_file() else 'none'
-
-
-def last_line(text: str) -> str:
-    lines = text.strip().splitlines()
-    return lines[-1][:300] if lines else ''
-
-
-def _outcome(status: int, errors: str) -> Outcome:
-    if status == 0:
-        return Outcome(DONE)
-    message = last_line(errors)
-    if status < 0:
-        name = signal.Signals(-status).name
-        if 'bad_alloc' in errors:
-            return Outcome('out of memory', message)
-        if -status == signal.SIGKILL:
-            return Outcome('killed', f'{name}, perhaps for want of memory')
-        return Outcome('crashed' if -status in CRASHES else 'killed', f'{name} {message}'.strip())
-    if 'memory' in message.lower():
-        return Outcome('out of memory', message)
-    return Outcome(f'exit status {status}', message)
-
-
-def run_process(command: list[str], text: Path, limits: Limits) -> Outcome:
-    """Runs a process with all that it prints in a file, and ends it and its children in time."""
-    libc = ctypes.CDLL(None)
-
-    def restrict() -> None:
-        libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
-        resource.setrlimit(resource.RLIMIT_AS, (limits.bytes, limits.bytes))
-        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-
-    errors = text.with_suffix('.errors')
-    try:
-        with open(text, 'wb') as output, open(errors, 'wb') as error_output:
-            try:
-                process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output,
-                                           stderr=error_output, start_new_session=True,
-                                           preexec_fn=restrict)
-            except OSError as error:
-                return Outcome('not started', str(error))
-            try:
-                process.wait(limits.seconds)
-            except subprocess.TimeoutExpired:
-                return Outcome('timed out', f'after {limits.seconds:g} s')
-            finally:
-                try:
-                    os.killpg(process.pid, signal.SIGKILL)
-                except ProcessLookupError:
-                    pass
-                process.wait()
-        return _outcome(process.returncode, errors.read_text(encoding='utf-8', errors='replace'))
-    finally:
-        with open(text, 'ab') as output:
-            output.write(errors.read_bytes())
-        errors.unlink()
-
-
-def read_report(path: Path, run: Run, plan: Plan) -> tuple[Outcome, dict[str, Any]]:
-    """A report is unreadable where it lacks a figure, or tells of another run than was asked for."""
-    try:
-        report = json.loads(path.read_text(encoding='utf-8'))
-        asked = {'schema': 1, 'kernel': run.kernel.name.partition(':')[0], 'threads': run.threads}
-        if run.kind in (RENDER, CONTROL):
-            asked['passes'] = plan.extent.passes
-        for key, expected in asked.items():
-            if report[key] != expected:
-                return Outcome('wrong report', f'{key} is {report[key]}, not {expected}'), {}
-        for metric in METRICS:
-            if metric.kind == (REPLAY if run.kind == REPLAY else RENDER) and run.kind != RECORD:
-                if not all(math.isfinite(sample) for sample in metric.samples(report)):
-                    return Outcome('wrong report', f'{metric.name} is not finite'), {}
-    except FileNotFoundError:
-        return Outcome('unreadable report', 'there is none'), {}
-    except (OSError, ValueError) as error:
-        return Outcome('unreadable report', str(error)), {}
-    except (KeyError, TypeError, AttributeError, IndexError) as error:
-        return Outcome('unreadable report', f'{type(error).__name__}: {error}'), {}
-    return Outcome(DONE), report
+    """'none' where there is no file."""
+    if not path.is_file():
+        return 'none'
+    status = path.stat()
+    return _sha256(path, status.st_mtime_ns, status.st_size)
 
 
 class Measurement:
@@ -153,7 +60,7 @@ class Measurement:
         extent = self.plan.extent
         scene = run.scene
         files = {'program': run.kernel.program, 'scene': scene.file, 'camera': scene.camera,
-                 'triangles': scene.triangles if scene.file.exists() else scene.file}
+                 'triangles': scene.triangles}
         fingerprint: dict[str, Any] = {key: checksum(path) for key, path in files.items()}
         fingerprint |= {'size': extent.size, 'cpu': self.machine['cpu'],
                         'affinity': self.machine['affinity']}
@@ -170,9 +77,15 @@ class Measurement:
         return fingerprint
 
     def result_of(self, run: Run) -> Result | None:
-        """The result in the folder, None where it is missing or out of date."""
+        """The result in the folder, None where it is missing or out of date.
+
+        A run that failed may do better within other limits.
+        """
         result = read_result(self.folder / f'{run.name}.json')
         if result is None or result.fingerprint != self.fingerprint(run):
+            return None
+        limits = vars(self.limits)
+        if not result.done and result.bench.get('limits', limits) != limits:
             return None
         if run.kind == RECORD and result.done and not self.stream(run.scene).exists():
             return None
@@ -209,9 +122,12 @@ class Measurement:
         if run.kind == RECORD:
             return [*command, '--record', f'{output}.rays', '--rays', str(extent.replay_rays)]
         command += ['--passes', str(extent.passes)]
-        if run.kind == RENDER and run.repeat == 1 and run.threads == self.plan.threads:
+        if self.writes_images(run):
             command += ['--output', str(output)]
         return command
+
+    def writes_images(self, run: Run) -> bool:
+        return run.kind == RENDER and run.repeat == 1 and run.threads == self.plan.threads
 
     def stream(self, scene: Scene) -> Path:
         assert self.plan.recorder
@@ -223,48 +139,76 @@ class Measurement:
             assert self.plan.recorder
             record = self.result_of(Run(RECORD, run.scene, self.plan.recorder, 1))
             if record is None or not record.done:
-                return Outcome('not made', f'{RECORDER} recorded no rays')
+                return Outcome(NOT_MADE, f'{RECORDER} recorded no rays')
         if run.scene.name not in self.warm:
             self.warm.add(run.scene.name)
             run_process([str(run.kernel.program), str(run.scene.file), '--batch', '--camera',
                          str(run.scene.camera), *WARM_UP], unfinished / 'warm-up.txt', self.limits)
-            (unfinished / 'warm-up.txt').unlink()
+            clear(unfinished)
         return Outcome(DONE)
 
     def make(self, run: Run, unfinished: Path) -> Result:
-        """Makes one run and writes its result."""
+        """Makes one run and writes its result.
+
+        @throws ResultsError where the disk is full
+        """
+        self.require_space(run)
         outcome = self.prepare(run, unfinished)
         output = unfinished / 'run'
         command = self.command(run, output)
-        started = datetime.now(timezone.utc)
-        clock = time.monotonic()
-        disturbance = environment.Disturbance()
-        report: dict[str, Any] = {}
-        if outcome.status == DONE:
-            outcome = run_process(command, output.with_suffix('.txt'), self.limits)
-        if outcome.status == DONE:
-            outcome, report = read_report(output.with_suffix('.report'), run, self.plan)
-        output.with_suffix('.report').unlink(missing_ok=True)
         bench = {
             'scene': run.scene.name, 'kernel': run.kernel.name, 'kind': run.kind,
-            'threads': run.threads, 'repeat': run.repeat, 'status': outcome.status,
-            'message': outcome.message, 'fingerprint': self.fingerprint(run),
-            'scale': run.scene.scale, 'command': [str(word) for word in command],
-            'arguments': self.arguments, 'session': self.session, 'started': started.isoformat(),
-            'seconds': time.monotonic() - clock, 'machine': self.machine,
-            'disturbance': disturbance.end(),
-        }
+            'threads': run.threads, 'repeat': run.repeat, 'fingerprint': self.fingerprint(run),
+            'scale': run.scene.scale, 'command': command, 'arguments': self.arguments,
+            'session': self.session, 'started': datetime.now(timezone.utc).isoformat(),
+            'machine': self.machine, 'limits': vars(self.limits)}
+        clock = time.monotonic()
+        disturbance = environment.Disturbance()
+        if outcome.status == DONE:
+            outcome = run_process(command, output.with_suffix('.txt'), self.limits)
+        bench |= {'seconds': time.monotonic() - clock, 'disturbance': disturbance.end()}
+        report: dict[str, Any] = {}
+        if outcome.status == DONE:
+            outcome, report = self.read(run, output)
         path = self.folder / run.name
+        bench |= vars(outcome)
         write_result(path, report, bench, unfinished)
         result = read_result(path.with_name(path.name + '.json'))
         assert result
         return result
 
+    def require_space(self, run: Run) -> None:
+        stream = BYTES_OF_A_QUESTION * self.plan.extent.replay_rays if run.kind == RECORD else 0
+        left = shutil.disk_usage(self.folder).free
+        if left < SPARE_BYTES + stream:
+            raise ResultsError(f'{self.folder}: only {left / 1e6:.1f} MB are left on its disk')
+
+    def read(self, run: Run, output: Path) -> tuple[Outcome, dict[str, Any]]:
+        """What a run wrote: its report and, for a look at them only, its images."""
+        name, options = run.kernel.program.name.removeprefix('bwfirt-'), run.kernel.options
+        asked = {'schema': 1, 'kernel': name, 'threads': run.threads,
+                 'kernel_options': {key: value for key, _, value in
+                                    (option.partition('=') for option in options)}}
+        width, height = map(int, self.plan.extent.size.split('x'))
+        if run.kind in (RENDER, CONTROL):
+            asked |= {'passes': self.plan.extent.passes, 'width': width, 'height': height}
+        try:
+            report = read_report(output.with_suffix('.report'), run.kind, asked)
+            if self.writes_images(run):
+                check_images(output, width, height)
+        except BadReport as bad:
+            return Outcome(bad.status, bad.message), {}
+        except BadImage as bad:
+            return Outcome('unreadable image', str(bad)), {}
+        return Outcome(DONE), report
+
     def measure(self) -> None:
         """Makes what is missing or out of date; prints a line for each run that was made."""
         with locked(self.folder) as unfinished:
             for scene in self.plan.growth:
-                make_scene(scene)
+                outcome = make_scene(scene, unfinished, self.limits)
+                if outcome.status != DONE:
+                    tqdm.write(f'{scene.name} could not be made: {outcome.status} {outcome.message}')
             runs = self.missing()
             seconds: dict[tuple[str, str], float] = {}  # that a kernel took last, by scene
             with tqdm(total=len(runs), disable=not sys.stderr.isatty(), leave=False,
@@ -288,18 +232,27 @@ def time_left(runs: list[Run], seconds: dict[tuple[str, str], float]) -> str:
     return f', {left / 60:.0f} min left' if left >= 60 else f', {left:.0f} s left'
 
 
-def make_scene(scene: Scene) -> None:
-    """Generates a scene of a growth curve where it is missing or older than its generator."""
+def make_scene(scene: Scene, folder: Path, limits: Limits) -> Outcome:
+    """Generates a scene of a growth curve where it is missing or older than its generator.
+
+    @param folder for files that are not finished
+    """
     name = scene.camera.stem
     generator = ROOT / 'scenes' / f'{name}.py'
     sources = [generator, *(ROOT / 'scenes' / 'model').glob('*.py'),
                *(ROOT / 'scenes' / f'{name}_parts').glob('*.py')]
     newest = max(source.stat().st_mtime for source in sources)
     if scene.file.exists() and scene.file.stat().st_mtime > newest:
-        return
-    scene.file.parent.mkdir(parents=True, exist_ok=True)
-    subprocess.run([sys.executable, str(generator), str(scene.file.with_suffix('')),
-                    '--scale', str(scene.scale)], check=True)
+        return Outcome(DONE)
+    base = folder / scene.file.stem
+    outcome = run_process([sys.executable, str(generator), str(base), '--scale', str(scene.scale)],
+                          folder / 'generator.txt', limits)
+    if outcome.status == DONE:
+        scene.file.parent.mkdir(parents=True, exist_ok=True)
+        for ending in ['.ra2', '.scene']:  # which names the one with the triangles
+            os.replace(base.with_suffix(ending), scene.file.with_suffix(ending))
+    clear(folder)
+    return outcome
 
 
 def remove(plan: Plan, folder: Path) -> None:
