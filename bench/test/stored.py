@@ -126,8 +126,8 @@ def replay_report(kernel: str, *, scene: str = 'box', rate: float = 20, threads:
         }})
 
 
-def write_images(base: Path, kernel: str, exposure: float = 1) -> None:
-    """BASE.exr and BASE.png: a ramp, in which one pixel tells kernels of an exposure not 1 apart."""
+def write_images(base: Path, exposure: float = 1) -> None:
+    """BASE.exr and BASE.png: a ramp, one pixel of which the exposure alters."""
     width, height = SIZE
     image = np.linspace(0, 1, 3 * width * height, dtype=np.float32).reshape(height, width, 3)
     image[0, 0] += np.float32(exposure - 1)
@@ -171,7 +171,7 @@ class Stored:
         path.parent.mkdir(parents=True, exist_ok=True)
         if status == 'done' and kind == RENDER and repeat == 1 and threads == all_threads \
                 and exposure is not None:
-            write_images(path, kernel, exposure)
+            write_images(path, exposure)
         path.with_name(f'{name}.txt').write_text(f'what {kernel} prints\n{message}\n')
         json_file = path.with_name(f'{name}.json')
         json_file.write_text(json.dumps({**full, 'bench': added}, indent=2))
@@ -201,7 +201,8 @@ class Stored:
             'command': [f'/somewhere/build/bwfirt-{program}', f'/somewhere/scenes/{scene}.scene',
                         '--threads', str(threads)],
             'arguments': [], 'session': BEGIN.isoformat(), 'started': started.isoformat(),
-            'seconds': 9.5, 'machine': dict(MACHINE), 'disturbance': dict(QUIET)}
+            'seconds': 9.5, 'limits': {'seconds': 1800, 'bytes': 10**10},
+ 'machine': dict(MACHINE), 'disturbance': dict(QUIET)}
 
     def benchmark(self, scenes: Sequence[str] = ('box',),
                   kernels: Sequence[str] = (RECORDER, 'funky-kd'), *, repeats: int = 3,
