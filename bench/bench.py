@@ -17,6 +17,7 @@ import argparse
 import math
 import os
 import re
+import shlex
 import signal
 import sys
 from pathlib import Path
@@ -38,6 +39,7 @@ FULL = Extent(size='640x480', passes=16, repeats=3, replay_rays=1000000, replay_
 QUICK = Extent(size='240x180', passes=4, repeats=2, replay_rays=50000, replay_seconds=0.05,
                growth=(1000, 10000, 100000), time_limit=120)
 BENCH = ROOT / 'bench'
+MOST_BYTES = 2**62  # that a limit can be
 DONE, FAILED, WRONG_USAGE = 0, 1, 2
 
 
@@ -65,6 +67,11 @@ def names(text: str) -> list[str]:
     return [name for name in text.split(',') if name]
 
 
+def kernel_names(text: str) -> list[str]:
+    """Apart at commas, but for those between options: NAME:OPTION=VALUE,OPTION=VALUE."""
+    return [name for name in re.split(',(?![^,:]*=)', text) if name]
+
+
 def parse_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog='bench.py', description=__doc__, epilog='The lists of '
                                      'scenes and kernels are at the beginning of bench/bench.py.')
@@ -79,8 +86,8 @@ def parse_arguments() -> argparse.Namespace:
     add('--quick', action='store_true', help='a small image, few kernels, short replays, 2 repeats')
     add('--fresh', action='store_true', help='forget the results of these scenes and kernels first')
     add('--scenes', metavar='A,B', type=names, help='names, scene files, or folders of them')
-    add('--kernels', metavar='A,B', type=names, action='append',
-        help="NAME or NAME:OPTION=VALUE; '*' for all others")
+    add('--kernels', metavar='A,B', type=kernel_names, action='append',
+        help="NAME or NAME:OPTION=VALUE,...; '*' for all others")
     add('--repeats', metavar='N', type=whole_number, help='of each run, default 3')
     add('--threads', metavar='N', type=whole_number, help='default: all that may be used')
     add('--passes', metavar='N', type=whole_number, help='samples per pixel, default 16')
@@ -128,11 +135,20 @@ def show(plan: Plan) -> None:
         print(f'kernel  {kernel.name}: {kernel.program}')
 
 
+def stored(folder: Path) -> Measured:
+    """@throws ResultsError where there are no results"""
+    measured = Measured(read_results(folder))
+    if not measured.results:
+        raise ResultsError(f'{folder}: there are no results')
+    return measured
+
+
 def main() -> int:
     arguments = parse_arguments()
-    results = arguments.results or BENCH / 'results' / ('quick' if arguments.quick else 'full')
+    results = (arguments.results or BENCH / 'results' / ('quick' if arguments.quick else 'full')
+               ).absolute()
     if arguments.compare:
-        print(compare(Measured(read_results(results)), Measured(read_results(arguments.compare))))
+        print(compare(stored(results), stored(arguments.compare)))
         return DONE
     selected = None
     if not arguments.report_only:
@@ -141,11 +157,11 @@ def main() -> int:
             show(plan)
             return DONE
         memory = arguments.memory_limit or 0.9e-9 * os.sysconf('SC_PAGE_SIZE') * os.sysconf('SC_PHYS_PAGES')
-        measurement = Measurement(plan, results, Limits(plan.extent.time_limit, int(memory * 1e9)),
-                                  sys.argv[1:])
+        limits = Limits(plan.extent.time_limit, min(int(memory * 1e9), MOST_BYTES))
+        measurement = Measurement(plan, results, limits, sys.argv[1:])
         if arguments.dry_run:
             for run in measurement.missing():
-                print(' '.join(measurement.command(run, results / run.name)))
+                print(shlex.join(measurement.command(run, results / run.name)))
             return DONE
         require_output(arguments.output)
         if arguments.fresh:
@@ -159,6 +175,8 @@ def main() -> int:
 
 
 if __name__ == '__main__':
+    for stream in (sys.stdout, sys.stderr):  # names of files may hold what they cannot show
+        stream.reconfigure(errors='backslashreplace')  # type: ignore[union-attr]
     signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
     try:
         sys.exit(main())

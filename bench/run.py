@@ -259,4 +259,5 @@ def remove(plan: Plan, folder: Path) -> None:
     """Removes all results of the plan's kernels on its scenes."""
     with locked(folder):
         for run in plan.runs():
-            shutil.rmtree((folder / run.name).parent, ignore_errors=True)
+            if run.kernel in plan.kernels:  # and not the recorder of the others
+                shutil.rmtree((folder / run.name).parent, ignore_errors=True)
