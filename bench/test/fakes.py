@@ -9,11 +9,15 @@
 
 import json
 import os
+import shutil
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+
+import pytest
 
 import run as bench_run
 from metrics import Measured
@@ -23,7 +27,7 @@ from run import Limits, Measurement
 from stored import render_report, replay_report, write_images
 
 BENCH = Path(bench_run.__file__).resolve().parent
-SHORT = Extent(size='8x6', passes=16, repeats=3, replay_rays=1000, replay_seconds=1, growth=(),
+SHORT = Extent(size='8x6', passes=16, repeats=3, replay_rays=1000000, replay_seconds=1, growth=(),
                time_limit=20)
 CAMERA = 'type pinhole\n'
 
@@ -81,9 +85,14 @@ class Bench:
         self.results = folder / 'results'
         self.output = folder / 'report'
         self.notes = folder / 'invocations'
-        for path in [self.build, self.scenes, self.build / 'images']:
-            path.mkdir()
-        self.scene('box')
+        if not self.build.exists():  # the folder is no copy
+            for path in [self.build, self.scenes, self.build / 'images']:
+                path.mkdir()
+            self.scene('box')
+
+    def copy(self, folder: Path) -> 'Bench':
+        """With the results so far. Copied kernels still note in the old folder that they ran."""
+        return Bench(shutil.copytree(self.folder, folder / 'copy'))
 
     def scene(self, name: str) -> None:
         (self.scenes / f'{name}.scene').write_text('triangles box.ra2\n')
@@ -135,7 +144,7 @@ class Bench:
     def command(self, *arguments: str | Path) -> list[str]:
         """Of bench.py, with its standard options where they are not given."""
         standard = {'--build': self.build, '--results': self.results, '--output': self.output,
-                    '--scenes': self.scenes, '--kernels': '*'}
+                    '--scenes': self.scenes, '--kernels': '*', '--size': '8x6', '--threads': '2'}
         options = [str(word) for option, value in standard.items() if option not in arguments
                    for word in (option, value)]
         return [sys.executable, str(BENCH / 'bench.py'), *options, *map(str, arguments)]
@@ -198,6 +207,20 @@ def text_of(pdf: Path) -> str:
     result = subprocess.run(['pdftotext', '-layout', str(pdf), '-'], check=True, text=True,
                             capture_output=True)
     return ' '.join(result.stdout.split())
+
+
+@contextmanager
+def mounted_disk(folder: Path, megabytes: int) -> Iterator[Path]:
+    """A file system of that size, in a new folder."""
+    disk = folder / 'disk'
+    disk.mkdir()
+    command = ['mount', '-t', 'tmpfs', '-o', f'size={megabytes}m', 'tmpfs', str(disk)]
+    if subprocess.run(command, check=False, stderr=subprocess.DEVNULL).returncode != 0:
+        pytest.skip('mounting a small file system needs rights that this process does not have')
+    try:
+        yield disk
+    finally:
+        subprocess.run(['umount', str(disk)], check=True)
 
 
 def clean_environment(**more: str) -> dict[str, str]:
