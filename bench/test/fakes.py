@@ -135,7 +135,7 @@ class Bench:
 
     def measure(self, plan: Plan | None = None, gigabytes: float = 4) -> Measured:
         """Measures within this process."""
-        self.measurement(plan, gigabytes).measure(lambda line: None)
+        self.measurement(plan, gigabytes).measure()
         return self.measured()
 
     def measured(self) -> Measured:
