@@ -24,6 +24,8 @@ from pathlib import Path
 
 try:
     from compare import compare
+    from environment import memory_bytes
+    from latex import LatexError
     from metrics import Measured
     from plan import (RECORDER, ROOT, Extent, Plan, Scene, UsageError, built_kernels, find_kernels,
                       find_scenes)
@@ -82,7 +84,7 @@ def parse_arguments() -> argparse.Namespace:
     what.add_argument('--report-only', action='store_true',
                       help='measure nothing; make the report of the results that there are')
     what.add_argument('--compare', metavar='DIR', type=Path, help='measure nothing; compare the '
-                      'results with those in another folder: ratios, and whether they exceed the noise')
+                      'results with those in another folder: ratios, and whether they are noise')
     add('--quick', action='store_true', help='a small image, few kernels, short replays, 2 repeats')
     add('--fresh', action='store_true', help='forget the results of these scenes and kernels first')
     add('--scenes', metavar='A,B', type=names, help='names, scene files, or folders of them')
@@ -156,7 +158,7 @@ def main() -> int:
         if arguments.list:
             show(plan)
             return DONE
-        memory = arguments.memory_limit or 0.9e-9 * os.sysconf('SC_PAGE_SIZE') * os.sysconf('SC_PHYS_PAGES')
+        memory = arguments.memory_limit or 0.9e-9 * memory_bytes()
         limits = Limits(plan.extent.time_limit, min(int(memory * 1e9), MOST_BYTES))
         measurement = Measurement(plan, results, limits, sys.argv[1:])
         if arguments.dry_run:
@@ -176,7 +178,7 @@ def main() -> int:
 
 if __name__ == '__main__':
     for stream in (sys.stdout, sys.stderr):  # names of files may hold what they cannot show
-        stream.reconfigure(errors='backslashreplace')  # type: ignore[union-attr]
+        stream.reconfigure(errors='backslashreplace')  # type: ignore[attr-defined]
     signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
     try:
         sys.exit(main())
@@ -185,5 +187,5 @@ if __name__ == '__main__':
     except UsageError as error:
         print(f'bench.py: {error}', file=sys.stderr)
         sys.exit(WRONG_USAGE)
-    except (ReportError, ResultsError, OSError) as error:
+    except (LatexError, ReportError, ResultsError, OSError) as error:
         sys.exit(f'bench.py: {error}')

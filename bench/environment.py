@@ -21,7 +21,7 @@ def first_line(path: Path) -> str:
 
 
 def value(path: str, key: str, separator: str = ':') -> str:
-    """The value behind the key in a file of lines KEY SEPARATOR VALUE; empty where there is none."""
+    """The value behind a key in a file of lines KEY SEPARATOR VALUE; empty where there is none."""
     try:
         lines = Path(path).read_text(encoding='utf-8').splitlines()
     except OSError:
@@ -49,6 +49,11 @@ def chosen(text: str) -> str:
     return text.partition('[')[2].partition(']')[0] or text
 
 
+def memory_bytes() -> int:
+    """Main memory of the machine."""
+    return os.sysconf('SC_PAGE_SIZE') * os.sysconf('SC_PHYS_PAGES')
+
+
 def machine() -> dict[str, Any]:
     """What does not change while a benchmark runs. Empty text stands for what cannot be read."""
     affinity = sorted(os.sched_getaffinity(0))
@@ -60,7 +65,7 @@ def machine() -> dict[str, Any]:
         'governor': first_line(CPU / f'cpu{affinity[0]}/cpufreq/scaling_governor'),
         'boost': boost(),
         'virtual': 'hypervisor' in value('/proc/cpuinfo', 'flags').split(),
-        'memory_bytes': os.sysconf('SC_PAGE_SIZE') * os.sysconf('SC_PHYS_PAGES'),
+        'memory_bytes': memory_bytes(),
         'transparent_huge_pages': chosen(
             first_line(Path('/sys/kernel/mm/transparent_hugepage/enabled'))),
         'huge_pages': value('/proc/meminfo', 'HugePages_Total'),

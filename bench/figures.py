@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""The graphs of the report, one function each. A function returns None where nothing was measured."""
+"""The graphs of the report, one function each, which gives None where nothing was measured."""
 
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -24,8 +24,8 @@ matplotlib.rcParams.update({
 })
 WIDTH = 3.35  # inches, half the width of the text
 
-# Okabe and Ito's colours, which colour-blind people tell apart, but for a darker yellow; in an order
-# in which neighbours differ in grey, too. Markers, lines and hatches tell apart what is left.
+# Okabe and Ito's colours, which colour-blind people tell apart, but for a darker yellow; in an
+# order in which neighbours differ in grey, too. Markers, lines and hatches tell apart the rest.
 # Hatches are of lines alone: dots and circles would make most of the bytes of an SVG figure.
 COLOURS = ['#0072B2', '#E69F00', '#009E73', '#DDCC33', '#D55E00', '#56B4E9', '#CC79A7', '#777777']
 HATCHES = ['', '////', '||||', 'xxxx', '\\\\\\\\', '++++', '//', '----']
@@ -170,7 +170,8 @@ def numerical_comparison(measured: Measured, scene: str) -> Figure | None:
         index = measured.kernels.index(kernel) % len(COLOURS)
         axes.plot(max(value, lowest / 3), place, MARKERS[index], color=COLOURS[index],
                   markeredgecolor='black', markeredgewidth=0.5)
-        axes.annotate(with_errors(measured, scene, kernel, f'{value:.3g}'), (max(value, lowest / 3), place), xytext=(7, 0),
+        axes.annotate(with_errors(measured, scene, kernel, f'{value:.3g}'),
+                      (max(value, lowest / 3), place), xytext=(7, 0),
                       textcoords='offset points', va='center', fontsize=8,
                       bbox=BLANK)
     if variances[0] > 0 and runs[0].report['reference_average_intensity']:
@@ -192,8 +193,8 @@ def numerical_comparison(measured: Measured, scene: str) -> Figure | None:
 
 
 SCENE_FIGURES: dict[str, Callable[[Measured, str], Figure | None]] = {
-    'total-time': total_time, 'initialisation': initialisation, 'ray-rates': ray_rates, 'memory': memory,
-    'numerical-comparison': numerical_comparison}
+    'total-time': total_time, 'initialisation': initialisation, 'ray-rates': ray_rates,
+    'memory': memory, 'numerical-comparison': numerical_comparison}
 
 # ---- Over all scenes ----------------------------------------------------------------------------
 
@@ -261,7 +262,7 @@ def _legend(figure: Figure) -> None:
 
 
 def speed_against_memory(measured: Measured) -> Figure | None:
-    """Geometric means over the scenes, relative to the reference, with the range over the scenes."""
+    """Geometric means over the scenes, relative to the reference, and the range over the scenes."""
     figure = Figure(figsize=(WIDTH, 2.6))
     axes = figure.subplots()
     points = [(kernel, memory, speed) for kernel in measured.kernels

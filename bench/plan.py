@@ -42,7 +42,7 @@ class Scene:
 
     @property
     def triangles(self) -> Path:
-        """The triangle file that the scene file names; the scene file itself where it names none."""
+        """The triangle file that the scene file names; the latter itself where it names none."""
         try:
             text = self.file.read_text(encoding='utf-8', errors='surrogateescape')
         except OSError:

@@ -5,29 +5,23 @@ import csv
 import io
 import os
 import shutil
-import subprocess
 import tempfile
-from collections.abc import Iterable
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from datetime import datetime, timezone
 from pathlib import Path
 from typing import Any
 
-import jinja2
-
 import figures
 import tables
 from doubts import doubts, failures
+from latex import require_latex, write_pdf
 from metrics import METRICS, Measured
 from pictures import Difference, difference
 from plan import RECORDER, REPLAY
 from results import Result
 from web import write_html
-
-TEMPLATES = Path(__file__).resolve().parent / 'templates'
-LATEX = [('pdflatex', 'texlive-latex-recommended and lmodern'),
-         ('epstopdf', 'texlive-font-utils')]  # and the Debian packages that they are in
 
 
 class ReportError(Exception):
@@ -139,76 +133,6 @@ def content(measured: Measured, folder: Path) -> dict[str, Any]:
     }
 
 
-# ---- LaTeX --------------------------------------------------------------------------------------
-
-LINE, CHARACTER, GAP = 495, 3.8, 8  # widths in a table: of all, of a character, of a gap, in points
-
-SPECIAL = {'\\': r'\textbackslash{}', '~': r'\textasciitilde{}', '^': r'\textasciicircum{}',
-           '-': '-{}', '\u2212': '$-$', '\u2013': '--', '\u2019': "'", '<': r'\textless{}',
-           '>': r'\textgreater{}', '|': r'\textbar{}', '"': r'\textquotedbl{}',
-           **{character: '\\' + character for character in '&%$#_{}'}}
-
-
-def tex(text: str) -> str:
-    """Text as LaTeX shows it. What Latin-1 does not have becomes a question mark."""
-    latin = ''.join(c if c in SPECIAL or (c.isprintable() and ord(c) < 256) else '?' for c in text)
-    return ''.join(SPECIAL.get(character, character) for character in latin)
-
-
-def breakable(text: str) -> str:
-    """The same with places where lines may break: in paths, flags and checksums."""
-    pieces = []
-    for position, character in enumerate(text):
-        pieces.append(tex(character))
-        if not character.isalnum() or position % 8 == 7:
-            pieces.append(r'\allowbreak{}')
-    return ''.join(pieces)
-
-
-def fitting(table: tables.Table) -> list[tables.Table]:
-    """Tables with some of the columns each, so that they fit the page; the first is in all."""
-    def width(column: int) -> float:
-        texts = [' '.join([row[column].text, row[column].error]).strip() for row in table.rows]
-        return GAP + CHARACTER * max(map(len, [table.columns[column], *texts]))
-    parts: list[list[int]] = [[]]
-    for column in range(1, len(table.columns)):
-        if parts[-1] and width(0) + sum(map(width, [*parts[-1], column])) > LINE:
-            parts.append([])
-        parts[-1].append(column)
-    return [replace(table, columns=[table.columns[c] for c in [0, *part]],
-                    rows=[[row[c] for c in [0, *part]] for row in table.rows]) for part in parts]
-
-
-def run_quietly(command: list[str], folder: Path) -> None:
-    result = subprocess.run(command, cwd=folder, check=False, stdin=subprocess.DEVNULL,
-                            capture_output=True, text=True, errors='replace')
-    if result.returncode:
-        errors = [line for line in result.stdout.splitlines() if line.startswith('!')]
-        raise ReportError(f"{command[0]}: {' '.join(errors) or result.stderr.strip()}")
-
-
-def write_pdf(shown: dict[str, Any], drawn: Iterable[tuple[str, Any]], folder: Path) -> bytes:
-    """Draws the figures as EPS, converts them by epstopdf, and typesets all by LaTeX."""
-    names = []
-    for name, figure in drawn:
-        figure.savefig(folder / f'{name}.eps', bbox_inches='tight', pad_inches=0.02)
-        names.append(name)
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        list(pool.map(lambda name: run_quietly(['epstopdf', f'{name}.eps'], folder), names))
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(TEMPLATES), undefined=jinja2.StrictUndefined,
-        block_start_string='<%', block_end_string='%>', variable_start_string='<<',
-        variable_end_string='>>', comment_start_string='<#', comment_end_string='#>',
-        trim_blocks=True, lstrip_blocks=True)
-    environment.filters |= {'tex': tex, 'breakable': breakable, 'fitting': fitting}
-    text = environment.get_template('bench.tex').render(shown | {'figures': set(names)})
-    (folder / 'bench.tex').write_text(text, encoding='utf-8')
-    for _ in range(2):  # the second time, long tables know their widths
-        run_quietly(['pdflatex', '-interaction=nonstopmode', '-halt-on-error', '-no-shell-escape',
-                     'bench.tex'], folder)
-    return (folder / 'bench.pdf').read_bytes()
-
-
 # ---- CSV ----------------------------------------------------------------------------------------
 
 
@@ -257,14 +181,25 @@ def write_atomically(path: Path, data: bytes) -> None:
         unfinished.unlink(missing_ok=True)
 
 
+@contextmanager
+def dated(date: datetime) -> Iterator[None]:
+    """Lets matplotlib and LaTeX write this date into files."""
+    before = dict(os.environ)
+    os.environ |= {'SOURCE_DATE_EPOCH': str(int(date.timestamp())), 'FORCE_SOURCE_DATE': '1'}
+    try:
+        yield
+    finally:
+        os.environ.clear()
+        os.environ |= before
+
+
 def require_output(base: Path) -> None:
     """What can be known before hours of measuring.
 
-    @throws ReportError where LaTeX is not installed, or the folder cannot be written to
+    @throws LatexError where LaTeX is not installed
+    @throws ReportError where the folder cannot be written to
     """
-    for program, package in LATEX:
-        if shutil.which(program) is None:
-            raise ReportError(f'{program} is missing: install the Debian packages {package}')
+    require_latex()
     folder = base.absolute().parent
     if not os.access(folder, os.W_OK):
         raise ReportError(f'{folder}: cannot be written to')
@@ -273,16 +208,15 @@ def require_output(base: Path) -> None:
 def write_report(measured: Measured, base: Path) -> list[Path]:
     """Writes BASE.csv, BASE.html and BASE.pdf; gives their paths.
 
-    @throws ReportError where there are no results, or LaTeX fails; the other files are written then
+    @throws ReportError where there are no results
+    @throws LatexError where LaTeX fails; the other files are written then
     """
     if not measured.results:
         raise ReportError('there are no results to report')
     require_output(base)
-    paths = [base.with_suffix(ending) for ending in ['.csv', '.html', '.pdf']]
-    os.environ['SOURCE_DATE_EPOCH'] = str(int(moment(measured).timestamp()))
-    os.environ['FORCE_SOURCE_DATE'] = '1'
+    paths = [base.with_name(base.name + ending) for ending in ['.csv', '.html', '.pdf']]
     write_atomically(paths[0], write_csv(measured).encode())
-    with tempfile.TemporaryDirectory() as name:
+    with tempfile.TemporaryDirectory() as name, dated(moment(measured)):
         folder = Path(name)
         shown = content(measured, folder)
         drawn = list(figures.draw_all(measured))

@@ -2,12 +2,10 @@
 """Makes the runs of a plan that are missing or out of date."""
 
 import hashlib
-import math
 import os
 import shutil
 import sys
 import time
-from dataclasses import dataclass
 from datetime import datetime, timezone
 from functools import cache
 from pathlib import Path
@@ -208,7 +206,7 @@ class Measurement:
             for scene in self.plan.growth:
                 outcome = make_scene(scene, unfinished, self.limits)
                 if outcome.status != DONE:
-                    tqdm.write(f'{scene.name} could not be made: {outcome.status} {outcome.message}')
+                    tqdm.write(f'{scene.name} is not made: {outcome.status} {outcome.message}')
             runs = self.missing()
             seconds: dict[tuple[str, str], float] = {}  # that a kernel took last, by scene
             with tqdm(total=len(runs), disable=not sys.stderr.isatty(), leave=False,

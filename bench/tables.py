@@ -66,7 +66,8 @@ def speed(measured: Measured) -> Table:
             '. Kernels whose answers are wrong are not ranked.')
     rows = [[Cell(scene), *(figure_cell(measured, RATE, scene, kernel)
                             for kernel in measured.kernels)] for scene in measured.scenes]
-    return Table('Million rays per second, gross: medians', ['scene', *measured.kernels], rows, note)
+    return Table('Million rays per second, gross: medians', ['scene', *measured.kernels], rows,
+                 note)
 
 
 def kernels(measured: Measured) -> Table:
@@ -78,7 +79,8 @@ def kernels(measured: Measured) -> Table:
         if relative is None:
             return NOTHING
         value, scenes = relative.geometric_mean, len(relative.samples)
-        return number(value, short(value) + (f' [{scenes}]' if scenes < len(measured.scenes) else ''))
+        some = f' [{scenes}]' if scenes < len(measured.scenes) else ''
+        return number(value, short(value) + some)
 
     def row(kernel: str) -> list[Cell]:
         wrong = [ppm for scene in measured.scenes
@@ -92,9 +94,9 @@ def kernels(measured: Measured) -> Table:
     return Table(f'Geometric means over the scenes, relative to {measured.reference}',
                  ['kernel', *(names[metric] for metric in metrics), 'wrong ppm', 'failures'],
                  [row(kernel) for kernel in measured.kernels],
-                 'Times and memory: less is better; rays, h, V (replayed): more is better. A number in '
-                 'brackets tells of how many scenes a mean is, where it is not of all. Wrong: answers '
-                 'in a million, on the worst scene.')
+                 'Times and memory: less is better; rays, h, V (replayed): more is better. A number '
+                 'in brackets tells of how many scenes a mean is, where it is not of all. Wrong: '
+                 'answers in a million, on the worst scene.')
 
 
 def failure_table(measured: Measured) -> Table:
@@ -107,7 +109,8 @@ def times(measured: Measured, scene: str) -> Table:
                RATE: 'Mrays/s, gross', RATE_MIXED: 'Mrays/s, replayed'}
     rows = [[Cell(kernel), *(figure_cell(measured, metric, scene, kernel, with_range=True)
                              for metric in metrics)] for kernel in measured.kernels]
-    return Table('Times and rates: medians (lowest\u2013highest)', ['kernel', *metrics.values()], rows)
+    return Table('Times and rates: medians (lowest\u2013highest)', ['kernel', *metrics.values()],
+                 rows)
 
 
 def memory(measured: Measured, scene: str) -> Table:
@@ -158,7 +161,8 @@ def answers(measured: Measured, scene: str) -> Table:
                 number(distance, f'{distance:.2g}')]
     recorders = {run.report['replay']['recorded_by'] for kernel in measured.kernels
                  if (run := measured.first(scene, kernel, REPLAY))}
-    return Table(f"Answers that differ from those of {', '.join(sorted(recorders)) or 'the recorder'}",
+    others = ', '.join(sorted(recorders)) or 'the recorder'
+    return Table(f'Answers that differ from those of {others}',
                  ['kernel', 'questions', *(name.replace('_', ' ') for name in ANSWERS),
                   'distance error'], [row(kernel) for kernel in measured.kernels])
 
@@ -180,9 +184,9 @@ def control(measured: Measured) -> Table:
                                                 for noise in noises)])
     return Table('Control: a kernel against itself', ['scene', 'kernel', 'rays per second',
                                                       'total time', 'initialise', 'render'], rows,
-                 'The difference of medians of the same kernel, measured twice in each turn. Noise is '
-                 'the largest of them, up or down; a smaller difference between kernels is shown as '
-                 'none.')
+                 'The difference of medians of the same kernel, measured twice in each turn. Noise '
+                 'is the largest of them, up or down; a smaller difference between kernels is shown '
+                 'as none.')
 
 
 def break_even(measured: Measured) -> Table:
