@@ -2,8 +2,10 @@
 """The graphs of the report, one function each, which gives None where nothing was measured."""
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from functools import partial
+from pathlib import Path
 
 import matplotlib
 from matplotlib.axes import Axes
@@ -337,7 +339,7 @@ def growth(measured: Measured) -> Figure | None:
         axes.xaxis.set_minor_formatter(NullFormatter())
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f'{value:g}'))
         axes.yaxis.set_minor_formatter(NullFormatter())
-        if metric is BYTES_PER_TRIANGLE:
+        if metric is not INITIALIZE:  # which grows by many powers of ten
             axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axes.set_xlabel('triangles')
         axes.set_title(f'{metric.name}, {metric.unit}', fontsize=8, style='italic')
@@ -396,12 +398,29 @@ OVERALL_FIGURES: dict[str, Callable[[Measured], Figure | None]] = {
     'thread-scaling': thread_scaling, 'growth': growth, 'break-even': break_even}
 
 
-def draw_all(measured: Measured) -> Iterator[tuple[str, Figure]]:
-    """All figures under names that are unique and fit for files: those of scene N begin with N."""
-    for number, scene in enumerate(measured.scenes):
-        for name, draw in SCENE_FIGURES.items():
-            if figure := draw(measured, scene):
-                yield f'{number}-{name}', figure
-    for name, draw_overall in OVERALL_FIGURES.items():
-        if figure := draw_overall(measured):
-            yield name, figure
+def _draw(name: str, draw: Callable[[], Figure | None], folder: Path) -> str | None:
+    figure = draw()
+    if figure is None:
+        return None
+    figure.draw_without_rendering()
+    figure.set_layout_engine('none')  # it is laid out once, for both files
+    box = figure.get_tightbbox().padded(0.02)
+    figure.savefig(folder / f'{name}.eps', bbox_inches=box)
+    figure.savefig(folder / f'{name}.svg', bbox_inches=box,
+                   metadata={'Date': None, 'Creator': None})
+    return name
+
+
+def draw_all(measured: Measured, folder: Path) -> list[str]:
+    """Writes NAME.eps and NAME.svg of all figures, and gives the names.
+
+    Those of the scene number N begin with N.
+    """
+    of_scenes = {f'{number}-{name}': partial(draw, measured, scene)
+                 for number, scene in enumerate(measured.scenes)
+                 for name, draw in SCENE_FIGURES.items()}
+    overall = {name: partial(draw, measured) for name, draw in OVERALL_FIGURES.items()}
+    with ProcessPoolExecutor() as pool:
+        drawn = [pool.submit(_draw, name, draw, folder)
+                 for name, draw in (of_scenes | overall).items()]
+        return [name for figure in drawn if (name := figure.result())]

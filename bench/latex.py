@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Typesets bench.pdf: figures as EPS, converted by epstopdf, and all of it by LaTeX."""
+"""Typesets bench.pdf by LaTeX, from templates/bench.tex."""
 
 import os
 import shutil
@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 import jinja2
-from matplotlib.figure import Figure
 
 from tables import Table
 
@@ -75,12 +74,12 @@ def run_quietly(command: list[str], folder: Path) -> None:
         raise LatexError(f"{command[0]}: {' '.join(errors) or result.stderr.strip()}")
 
 
-def write_pdf(shown: dict[str, Any], drawn: Iterable[tuple[str, Figure]], folder: Path) -> bytes:
-    """Draws the figures as EPS, converts them by epstopdf, and typesets all by LaTeX."""
-    names = []
-    for name, figure in drawn:
-        figure.savefig(folder / f'{name}.eps', bbox_inches='tight', pad_inches=0.02)
-        names.append(name)
+def write_pdf(shown: dict[str, Any], names: Iterable[str], folder: Path) -> bytes:
+    """Converts figures by epstopdf, and typesets all by LaTeX.
+
+    @param shown report.content()
+    @param names of the figures, which are in the folder as NAME.eps
+    """
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         list(pool.map(lambda name: run_quietly(['epstopdf', f'{name}.eps'], folder), names))
     environment = jinja2.Environment(

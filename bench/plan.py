@@ -25,6 +25,7 @@ class Extent:
     size: str  # of the image, WIDTHxHEIGHT in pixels
     passes: int  # samples per pixel
     repeats: int
+    controls: int | None  # the first scenes, so many, have a control; None: all
     replay_rays: int  # at least so many questions are recorded of each scene
     replay_seconds: float  # the shortest time of one measurement of a replay
     growth: tuple[int, ...]  # triangles, about
@@ -195,7 +196,7 @@ class Plan:
     def _turn(self, scene: Scene, repeat: int) -> Iterator[Run]:
         runs = [Run(RENDER, scene, kernel, self.threads, repeat) for kernel in self.kernels]
         runs += [Run(CONTROL, scene, kernel, self.threads, repeat) for kernel in self.kernels
-                 if kernel.name == self.control]
+                 if kernel.name == self.control and scene in self.scenes[:self.extent.controls]]
         first = (repeat - 1) % len(runs)
         yield from runs[first:] + runs[:first]
         if scene.name in self.scaling:

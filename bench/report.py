@@ -219,7 +219,7 @@ def write_report(measured: Measured, base: Path) -> list[Path]:
     with tempfile.TemporaryDirectory() as name, dated(moment(measured)):
         folder = Path(name)
         shown = content(measured, folder)
-        drawn = list(figures.draw_all(measured))
-        write_atomically(paths[1], write_html(shown, drawn))
-        write_atomically(paths[2], write_pdf(shown, drawn, folder))
+        names = figures.draw_all(measured, folder)
+        write_atomically(paths[1], write_html(shown, names, folder))
+        write_atomically(paths[2], write_pdf(shown, names, folder))
     return paths

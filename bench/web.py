@@ -3,7 +3,6 @@
 
 import base64
 import hashlib
-import io
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -19,14 +18,6 @@ def data_uri(data: bytes, kind: str) -> str:
 
 def png(file: Path) -> str:
     return data_uri(file.read_bytes(), 'image/png')
-
-
-def svg(figure: Any) -> str:
-    """The same bytes for the same figure: figures.py sets what element names are made of."""
-    output = io.BytesIO()
-    figure.savefig(output, format='svg', bbox_inches='tight', pad_inches=0.02,
-                   metadata={'Date': None, 'Creator': None})
-    return data_uri(output.getvalue(), 'image/svg+xml')
 
 
 def distinct(pictures: Iterable[Any]) -> list[list[Any]]:
@@ -47,15 +38,16 @@ def digest(text: str) -> str:
     return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
 
 
-def write_html(shown: dict[str, Any], drawn: Iterable[tuple[str, Any]]) -> bytes:
+def write_html(shown: dict[str, Any], names: Iterable[str], folder: Path) -> bytes:
     """@param shown report.content()
-    @param drawn figures.draw_all()
+    @param names of the figures, which are in the folder as NAME.svg
     """
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(TEMPLATES), undefined=jinja2.StrictUndefined,
         autoescape=True, trim_blocks=True, lstrip_blocks=True)
     environment.filters |= {'png': png, 'distinct': distinct, 'digest': digest}
     environment.tests |= {'numeric_in': lambda column, rows: is_numeric(rows, column)}
-    images = {name: svg(figure) for name, figure in drawn}
+    images = {name: data_uri((folder / f'{name}.svg').read_bytes(), 'image/svg+xml')
+              for name in names}
     text = environment.get_template('bench.html').render(shown | {'figures': images})
     return text.encode('utf-8', errors='replace')  # file names may hold what is no character

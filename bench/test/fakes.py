@@ -27,7 +27,8 @@ from run import Limits, Measurement
 from stored import render_report, replay_report, write_images
 
 BENCH = Path(bench_run.__file__).resolve().parent
-SHORT = Extent(size='8x6', passes=16, repeats=3, replay_rays=1000000, replay_seconds=1, growth=(),
+SHORT = Extent(size='8x6', passes=16, repeats=3, controls=None, replay_rays=1000000,
+               replay_seconds=1, growth=(),
                time_limit=20)
 CAMERA = 'type pinhole\n'
 

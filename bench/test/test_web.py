@@ -44,7 +44,8 @@ def page(stored: Stored, file: Path, more: list[Table] | None = None) -> Path:
     measured = stored.measured()
     shown = content(measured, pictures)
     shown['summary'] += more or []
-    file.write_bytes(write_html(shown, figures.draw_all(measured)))
+    names = figures.draw_all(measured, pictures)
+    file.write_bytes(write_html(shown, names, pictures))
     return file
 
 
