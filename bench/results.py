@@ -69,17 +69,26 @@ def read_result(path: Path) -> Result | None:
 
 
 def read_results(folder: Path) -> list[Result]:
-    """All results in a folder that are the newest of their kind, in the order of their making.
+    """All results in a folder that are not out of date, in the order of their making.
 
-    Where a kernel's runs on a scene have several fingerprints, because a measurement was broken off
-    after the kernel had changed, only the runs like the newest one are taken.
+    Where a kernel's runs on a scene have several fingerprints, because it has changed, or because
+    something else was measured, only those are taken that fit the newest one of their kind, and, in
+    what kinds have in common, the newest one of all.
     """
     results = [result for path in sorted(folder.glob('*/*/*.json'))
                if (result := read_result(path))]
     results.sort(key=lambda result: result.bench['started'])
-    newest = {(result.scene, result.kernel, result.kind): result.fingerprint for result in results}
+    of_kind = {(result.scene, result.kernel, result.kind): result for result in results}
+    of_all = {(result.scene, result.kernel): result for result in results}
     return [result for result in results
-            if newest[result.scene, result.kernel, result.kind] == result.fingerprint]
+            if result.fingerprint == of_kind[result.scene, result.kernel, result.kind].fingerprint
+            and fits(result, of_all[result.scene, result.kernel])]
+
+
+def fits(result: Result, other: Result) -> bool:
+    """Whether their fingerprints are the same where both have a value."""
+    common = result.fingerprint.keys() & other.fingerprint.keys()
+    return all(result.fingerprint[key] == other.fingerprint[key] for key in common)
 
 
 def write_result(path: Path, report: dict[str, Any], bench: dict[str, Any], folder: Path) -> None:
