@@ -8,22 +8,23 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-CPU = Path('/sys/devices/system/cpu')
+ROOT = Path('/')  # below which proc, sys and etc are
+CPU = Path('sys/devices/system/cpu')
 CLOCK_TICK = os.sysconf('SC_CLK_TCK')
 
 
-def first_line(path: Path) -> str:
-    """Empty where it cannot be read."""
+def first_line(path: Path | str) -> str:
+    """Of a file below ROOT. Empty where it cannot be read."""
     try:
-        return path.read_text(encoding='utf-8').split('\n')[0].strip()
+        return (ROOT / path).read_text(encoding='utf-8', errors='replace').split('\n')[0].strip()
     except OSError:
         return ''
 
 
-def value(path: str, key: str, separator: str = ':') -> str:
+def value(path: Path | str, key: str, separator: str = ':') -> str:
     """The value behind a key in a file of lines KEY SEPARATOR VALUE; empty where there is none."""
     try:
-        lines = Path(path).read_text(encoding='utf-8').splitlines()
+        lines = (ROOT / path).read_text(encoding='utf-8', errors='replace').splitlines()
     except OSError:
         return ''
     pairs = (line.partition(separator) for line in lines)
@@ -32,7 +33,7 @@ def value(path: str, key: str, separator: str = ':') -> str:
 
 def caches() -> list[str]:
     """Of the first processor, such as 'L1 Data 48K'."""
-    folders = sorted((CPU / 'cpu0/cache').glob('index*'))
+    folders = sorted((ROOT / CPU / 'cpu0/cache').glob('index*'))
     return [f"L{first_line(folder / 'level')} {first_line(folder / 'type')} "
             f"{first_line(folder / 'size')}" for folder in folders]
 
@@ -57,20 +58,21 @@ def memory_bytes() -> int:
 def machine() -> dict[str, Any]:
     """What does not change while a benchmark runs. Empty text stands for what cannot be read."""
     affinity = sorted(os.sched_getaffinity(0))
+    system = f'{platform.system()} {platform.release()}'
     return {
-        'cpu': value('/proc/cpuinfo', 'model name') or platform.processor(),
+        'cpu': value('proc/cpuinfo', 'model name') or platform.processor(),
         'caches': caches(),
         'cores': os.cpu_count() or 0,
         'affinity': affinity,
         'governor': first_line(CPU / f'cpu{affinity[0]}/cpufreq/scaling_governor'),
         'boost': boost(),
-        'virtual': 'hypervisor' in value('/proc/cpuinfo', 'flags').split(),
+        'virtual': 'hypervisor' in value('proc/cpuinfo', 'flags').split(),
         'memory_bytes': memory_bytes(),
         'transparent_huge_pages': chosen(
-            first_line(Path('/sys/kernel/mm/transparent_hugepage/enabled'))),
-        'huge_pages': value('/proc/meminfo', 'HugePages_Total'),
-        'os': f"{value('/etc/os-release', 'PRETTY_NAME', '=')}, "
-              f'{platform.system()} {platform.release()}',
+            first_line('sys/kernel/mm/transparent_hugepage/enabled')),
+        'huge_pages': value('proc/meminfo', 'HugePages_Total'),
+        'os': ', '.join(name for name in [value('etc/os-release', 'PRETTY_NAME', '='), system]
+                        if name),
         'python': platform.python_version(),
     }
 
@@ -86,19 +88,27 @@ class _Times:
 
 
 def _times() -> _Times:
-    ticks = [int(word) for word in first_line(Path('/proc/stat')).split()[1:9]]
-    user, nice, system, idle, iowait, interrupts, soft_interrupts, stolen = ticks
+    """All 0 where the machine does not tell."""
+    words = first_line('proc/stat').split()[1:9]
+    ticks = [int(word) if word.isdecimal() else 0 for word in words]
+    user, nice, system, _, _, interrupts, soft_interrupts, stolen = (ticks + [0] * 8)[:8]
     children = resource.getrusage(resource.RUSAGE_CHILDREN)
     return _Times((user + nice + system + interrupts + soft_interrupts) / CLOCK_TICK,
                   stolen / CLOCK_TICK, sum(ticks) / CLOCK_TICK,
                   children.ru_utime + children.ru_stime)
 
 
+def load() -> float:
+    """Average of a minute; 0 where the machine does not tell."""
+    words = first_line('proc/loadavg').split()
+    return float(words[0]) if words else 0.0
+
+
 class Disturbance:
     """What else the machine does while a child process runs."""
 
     def __init__(self) -> None:
-        self.load_before = os.getloadavg()[0]
+        self.load_before = load()
         self.before = _times()
 
     def end(self) -> dict[str, float]:
@@ -108,4 +118,4 @@ class Disturbance:
         others = (after.busy - self.before.busy) - (after.children - self.before.children)
         return {'others': max(0, others) / total,
                 'stolen': (after.stolen - self.before.stolen) / total,
-                'load_before': self.load_before, 'load_after': os.getloadavg()[0]}
+                'load_before': self.load_before, 'load_after': load()}

@@ -159,13 +159,13 @@ def hanging(tmp_path_factory: pytest.TempPathFactory) -> Bench:
     bench.kernel('good')
     bench.kernel('hanging', 'if KIND == "render":' + HANG.replace('\n', '\n    '))
     bench.kernel('stubborn', 'if KIND == "render":' + STUBBORN.replace('\n', '\n    '))
-    bench.measure(bench.plan(time_limit=1, control='good', repeats=1))
+    bench.measure(bench.plan(time_limit=2, control='good', repeats=1))
     return bench
 
 
 @pytest.mark.parametrize('name', ['hanging', 'stubborn'])
 def test_a_kernel_that_hangs_is_ended(hanging: Bench, name: str) -> None:
-    assert status_of(hanging.measured(), name) == ('timed out', 'after 1 s')
+    assert status_of(hanging.measured(), name) == ('timed out', 'after 2 s')
 
 
 def test_a_kernel_that_hangs_leaves_no_process(hanging: Bench) -> None:
@@ -179,7 +179,7 @@ def test_a_kernel_that_hangs_leaves_no_unfinished_file(hanging: Bench) -> None:
 
 
 def test_a_longer_time_limit_gives_another_chance(hanging: Bench) -> None:
-    plan = hanging.plan(time_limit=2, control='good', repeats=1)
+    plan = hanging.plan(time_limit=3, control='good', repeats=1)
     again = {run.kernel.name for run in hanging.measurement(plan).missing()}
     assert again == {'hanging', 'stubborn'}
 
@@ -187,7 +187,7 @@ def test_a_longer_time_limit_gives_another_chance(hanging: Bench) -> None:
 def test_a_hanging_warm_up_does_not_hang_the_benchmark(tmp_path: Path) -> None:
     bench = Bench(tmp_path)
     bench.kernel('good', 'if KIND == "warm-up":\n    time.sleep(100)')
-    measured = bench.measure(bench.plan(time_limit=1))
+    measured = bench.measure(bench.plan(time_limit=2, repeats=1))
     assert measured.median(RATE, 'box', 'good') == 10
     assert bench.processes() == []
 
