@@ -119,8 +119,9 @@ def answers(measured: Measured) -> Iterator[str]:
         if unchecked:
             yield f"The answers of {kernel} were not checked on {', '.join(unchecked)}."
         for scene in measured.scenes:
-            averages = {tuple(result.report['average_intensity'])
-                        for result in measured.runs(scene, kernel) if result.done}
+            averages = {tuple(result.report['average_intensity']) for result in measured.results
+                        if (result.scene, result.kernel) == (scene, kernel) and result.done
+                        and result.kind in (RENDER, CONTROL)}
             if len(averages) > 1:
                 yield (f'{kernel} answers differently from run to run on {scene}: its images of the '
                        'same seed are not the same.')
