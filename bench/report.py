@@ -55,12 +55,17 @@ class SceneReport:
 
 
 def pictures_of(measured: Measured, scene: str, number: int, folder: Path) -> list[Picture]:
-    """Compares the images with that of simple-bvh, or of the first kernel that has one."""
+    """Compares the images with that of simple-bvh, or of the first kernel that has one.
+
+    Images of another size, which are results of another benchmark, are left out.
+    """
+    def size(run: Result) -> tuple[int, int]:
+        return run.report['width'], run.report['height']
     runs = [run for kernel in measured.kernels if (run := measured.first(scene, kernel))
             and run.file('.exr').exists() and run.file('.png').exists()]
     runs.sort(key=lambda run: run.kernel != RECORDER)
     pictures = []
-    for run in runs:
+    for run in [run for run in runs if size(run) == size(runs[0])]:
         output = folder / f'{number}-difference-{measured.kernels.index(run.kernel)}.png'
         found = None
         if run is not runs[0]:
@@ -215,7 +220,7 @@ def write_report(measured: Measured, base: Path) -> list[Path]:
         raise ReportError('there are no results to report')
     require_output(base)
     paths = [base.with_name(base.name + ending) for ending in ['.csv', '.html', '.pdf']]
-    write_atomically(paths[0], write_csv(measured).encode())
+    write_atomically(paths[0], write_csv(measured).encode(errors='replace'))
     with tempfile.TemporaryDirectory() as name, dated(moment(measured)):
         folder = Path(name)
         shown = content(measured, folder)

@@ -40,8 +40,11 @@ NOTHING = Cell('\u2013')
 
 
 def wrong_answers(measured: Measured, scene: str, kernel: str) -> str:
+    """Empty where nothing is known against them."""
     wrong = measured.wrong_per_million(scene, kernel)
-    return f'{si(wrong)} ppm wrong' if wrong else ''
+    if wrong:
+        return f'{si(wrong)} ppm wrong'
+    return '' if measured.is_right(scene, kernel) else 'answers not checked'
 
 
 def figure_cell(measured: Measured, metric: Metric, scene: str, kernel: str,
