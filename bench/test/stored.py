@@ -172,7 +172,8 @@ class Stored:
         if status == 'done' and kind == RENDER and repeat == 1 and threads == all_threads \
                 and exposure is not None:
             write_images(path, exposure)
-        path.with_name(f'{name}.txt').write_text(f'what {kernel} prints\n{message}\n')
+        path.with_name(f'{name}.txt').write_text(f'what {kernel} prints\n{message}\n',
+                                                 errors='replace')
         json_file = path.with_name(f'{name}.json')
         json_file.write_text(json.dumps({**full, 'bench': added}, indent=2))
         result = read_result(json_file)

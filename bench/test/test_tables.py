@@ -1,0 +1,217 @@
+# SPDX-License-Identifier: GPL-3.0-only
+"""What the tables show of good, wrong and failed kernels; and the comparison of two sets."""
+
+import csv
+import io
+from pathlib import Path
+
+import pytest
+
+import tables
+from compare import compare
+from doubts import failures
+from metrics import Measured
+from plan import REPLAY
+from report import write_csv
+from stored import Stored
+from tables import Cell, Table
+
+
+def row(table: Table, name: str) -> list[Cell]:
+    return next(cells for cells in table.rows if cells[0].text == name)
+
+
+def texts(cells: list[Cell]) -> list[str]:
+    return [cell.text for cell in cells]
+
+
+def all_tables(measured: Measured) -> list[Table]:
+    of_scenes = [table(measured, scene) for table in tables.SCENE_TABLES
+                 for scene in measured.scenes]
+    return of_scenes + [table(measured) for table in
+                        [*tables.SUMMARY, *tables.OVERALL_TABLES, *tables.SYSTEM_TABLES]]
+
+
+@pytest.fixture(scope='module')
+def measured(tmp_path_factory: pytest.TempPathFactory) -> Measured:
+    """Two good kernels; one that is fast and wrong; one that crashes; one whose replay does."""
+    stored = Stored(tmp_path_factory.mktemp('results'))
+    stored.benchmark(['box'], ['simple-bvh', 'funky-kd', 'liar'], answers={
+        'liar': {'missed': 30, 'false_visible': 12, 'tie': 5}},
+        rates={'simple-bvh': 5, 'funky-kd': 10, 'liar': 77})
+    stored.run('box', 'broken', status='crashed', message='SIGSEGV')
+    stored.run('box', 'broken', REPLAY, status='crashed', message='SIGSEGV')
+    for repeat in (1, 2, 3):
+        stored.run('box', 'shy', repeat=repeat, rate=66)
+    stored.run('box', 'shy', REPLAY, status='timed out', message='after 9 s')
+    return stored.measured()
+
+
+# ---- Speed --------------------------------------------------------------------------------------
+
+
+def test_the_best_is_marked_and_wrong_or_unchecked_ones_are_not(measured: Measured) -> None:
+    speed = tables.speed(measured)
+    cells = dict(zip(speed.columns[1:], row(speed, 'box')[1:]))
+    assert {kernel for kernel, cell in cells.items() if cell.is_best} == {'funky-kd'}
+    assert (cells['funky-kd'].text, cells['funky-kd'].error) == ('10', '')
+    assert (cells['liar'].text, cells['liar'].error) == ('77', '42 ppm wrong')
+    assert (cells['broken'].text, cells['broken'].error) == ('', 'crashed')
+    assert (cells['shy'].text, cells['shy'].error) == ('66', 'answers not checked')
+
+
+def test_no_speed_of_a_wrong_kernel_is_without_its_errors(measured: Measured) -> None:
+    rates = ['77', '96.', '154', '308', '192']  # gross, and the replayed ones
+    shown = [cell for table in all_tables(measured) for cells in table.rows
+             for cell in cells[1:] if cell.value is not None
+             and 'liar' in (cells[0].text, table.columns[cells.index(cell)])
+             and any(cell.text.startswith(rate) for rate in rates)]
+    assert len(shown) >= 3
+    assert all(cell.error == '42 ppm wrong' for cell in shown)
+
+
+def test_a_wrong_kernel_has_no_means_and_no_break_even(measured: Measured) -> None:
+    liar = texts(row(tables.kernels(measured), 'liar'))
+    assert liar == ['liar', *['\u2013'] * 8, '42', '1']
+    columns = tables.break_even(measured).columns
+    assert row(tables.break_even(measured), 'box')[columns.index('liar')].text == '\u2013'
+
+
+def test_means_of_good_kernels(measured: Measured) -> None:
+    cells = texts(row(tables.kernels(measured), 'simple-bvh'))
+    assert cells[0] == 'simple-bvh'
+    assert cells[3:7] == ['0.5', '0.5', '0.5', '0.5']  # rays, h, V, h and V
+    assert cells[7:] == ['1', '1', '0', '0']           # memory, wrong answers, failures
+
+
+def test_answers_table(measured: Measured) -> None:
+    table = tables.answers(measured, 'box')
+    by_name = dict(zip(table.columns, row(table, 'liar')))
+    assert {name: by_name[name].text for name in ['questions', 'missed', 'ghost', 'tie']} == {
+        'questions': '1000000', 'missed': '30', 'ghost': '0', 'tie': '5'}
+    assert [name for name, cell in by_name.items() if cell.error] == ['missed', 'false visible']
+    assert row(table, 'broken')[1].error == 'crashed'
+    assert row(table, 'shy')[1].error == 'timed out'
+
+
+def test_failures_have_their_messages(measured: Measured) -> None:
+    assert set(failures(measured)) == {
+        ('box', 'broken', 'render: crashed', 'SIGSEGV'),
+        ('box', 'broken', 'replay: crashed', 'SIGSEGV'),
+        ('box', 'shy', 'replay: timed out', 'after 9 s'),
+        ('box', 'liar', 'wrong answers', '30 missed, 12 false visible of 1000000')}
+    assert [texts(cells) for cells in tables.failure_table(measured).rows] == [
+        list(cells) for cells in failures(measured)]
+
+
+def test_the_control_tells_the_noise(measured: Measured) -> None:
+    table = tables.control(measured)
+    assert texts(row(table, 'box'))[:3] == ['box', 'funky-kd', '+0.50 %']
+    assert texts(row(table, 'noise'))[2] == '0.50 %'
+
+
+@pytest.mark.parametrize('build, rate, text', [
+    (3, 20, 'from 40M on'), (0.5, 5, 'up to 5M'), (0.5, 20, 'always'), (3, 5, 'never')])
+def test_break_even(tmp_path: Path, build: float, rate: float, text: str) -> None:
+    stored = Stored(tmp_path)
+    stored.run('box', 'funky-kd', rate=10, report={'time.initialize_s': 1})
+    stored.run('box', 'other', rate=rate, report={'time.initialize_s': build})
+    assert texts(row(tables.break_even(stored.measured()), 'box')) == ['box', '\u2013', text]
+
+
+def test_average_intensity_beside_its_reference(tmp_path: Path) -> None:
+    stored = Stored(tmp_path)
+    stored.run('box', 'a', report={'average_intensity': [0.26, 0, 0], 'standard_error': [0.004, 0, 0],
+                                   'reference_average_intensity': [0.25, 0, 0]})
+    stored.run('box', 'b', report={'standard_error': [None] * 3,
+                                   'reference_average_intensity': None})
+    table = tables.intensity(stored.measured(), 'box')
+    assert texts(row(table, 'a'))[1:5] == ['0.260000000', '0.004', '0.250000000', '+2.50']
+    assert texts(row(table, 'b'))[2:5] == ['\u2013'] * 3
+
+
+# ---- CSV ----------------------------------------------------------------------------------------
+
+
+def test_csv_has_a_row_for_each_run(measured: Measured) -> None:
+    rows = list(csv.DictReader(io.StringIO(write_csv(measured))))
+    assert [(r['scene'], r['kernel'], r['kind'], int(r['threads']), int(r['repeat']), r['status'])
+            for r in rows] == [(x.scene, x.kernel, x.kind, x.threads, x.repeat, x.status)
+                               for x in measured.results]
+    rates = {(r['kernel'], r['kind'], r['repeat']): r['rate [Mrays/s]'] for r in rows}
+    assert float(rates['funky-kd', 'render', '2']) == pytest.approx(10.1)
+    assert rates['broken', 'render', '1'] == ''
+    assert {r['wrong_per_million'] for r in rows if r['kernel'] == 'liar'} == {'42.0'}
+    assert {r['message'] for r in rows if r['kernel'] == 'broken'} == {'SIGSEGV'}
+
+
+@pytest.mark.parametrize('message', ['a,b', 'say "no"', 'two\nlines', 'é 日 \udcff', ';=1+1'])
+def test_csv_keeps_odd_texts_whole(tmp_path: Path, message: str) -> None:
+    stored = Stored(tmp_path)
+    stored.run('odd, "name"', 'a', status='crashed', message=message)
+    row, = csv.DictReader(io.StringIO(write_csv(stored.measured())))
+    assert (row['scene'], row['message']) == ('odd, "name"', message)
+
+
+# ---- Two sets -----------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def here(tmp_path: Path) -> Stored:
+    return Stored(tmp_path / 'here')
+
+
+@pytest.fixture
+def there(tmp_path: Path) -> Stored:
+    return Stored(tmp_path / 'there')
+
+
+def lines(here: Stored, there: Stored, figure: str = 'Rays, gross') -> list[list[str]]:
+    """Of that figure: kernel, medians, ratio and verdict."""
+    text = compare(here.measured(), there.measured())
+    return [line.split(maxsplit=1)[1].replace(figure + ' Mrays/s', '').split()
+            for line in text.splitlines() if figure in line]
+
+
+def test_comparison_tells_ratio_and_whether_it_exceeds_the_noise(here: Stored, there: Stored) -> None:
+    kernels = ['simple-bvh', 'funky-kd', 'third']
+    here.benchmark(kernels=kernels, rates={'simple-bvh': 12, 'funky-kd': 10, 'third': 4})
+    there.benchmark(kernels=kernels, rates={'simple-bvh': 10, 'funky-kd': 10.1, 'third': 5})
+    assert lines(here, there) == [['simple-bvh', '12', '10', '1.200', 'better'],
+                                  ['funky-kd', '10', '10.1', '0.990', 'equal'],
+                                  ['third', '4', '5', '0.800', 'worse']]
+    assert compare(here.measured(), there.measured()).endswith(
+        'noise of rays per second: 0.5 % here, 0.5 % there')
+
+
+def test_comparison_calls_less_time_better(here: Stored, there: Stored) -> None:
+    here.run('box', 'a', report={'time.total_s': 5})
+    there.run('box', 'a', report={'time.total_s': 10})
+    verdicts = [line for line in compare(here.measured(), there.measured()).splitlines()
+                if 'Total running time' in line]
+    assert len(verdicts) == 1 and verdicts[0].split()[-2:] == ['0.500', 'better']
+
+
+def test_comparison_names_wrong_answers_beside_speed(here: Stored, there: Stored) -> None:
+    here.benchmark(kernels=['simple-bvh', 'a', 'b'], rates={'a': 99}, answers={
+        'a': {'missed': 7}})
+    there.benchmark(kernels=['simple-bvh', 'a', 'b'], answers={'b': {'ghost': 9}})
+    assert lines(here, there)[1:] == [
+        ['a', '99', '10', '9.900', 'wrong', 'answers', 'here'],
+        ['b', '10', '10', '1.000', 'wrong', 'answers', 'there']]
+
+
+def test_comparison_of_different_extents_says_so(here: Stored, there: Stored) -> None:
+    here.benchmark()
+    there.benchmark(bench={'fingerprint.passes': 4})
+    text = compare(here.measured(), there.measured())
+    assert 'the two sets differ in passes' in text
+    assert 'differ in' not in compare(here.measured(), here.measured())
+
+
+def test_comparison_of_what_has_nothing_in_common(here: Stored, there: Stored) -> None:
+    here.run('box', 'a')
+    there.run('hall', 'a')
+    there.run('box', 'b')
+    assert compare(here.measured(), there.measured()) == (
+        'the two sets have no kernel and scene in common')
