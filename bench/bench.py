@@ -118,9 +118,10 @@ def plan_of(arguments: argparse.Namespace, results: Path) -> Plan:
     built = built_kernels(build)
     chosen = [name for part in arguments.kernels or [] for name in part]
     quick = [name for name in QUICK_KERNELS if name in built]
-    kernels = find_kernels(chosen or (quick if arguments.quick else KERNELS), build)
+    standard_kernels = quick if arguments.quick else KERNELS
+    kernels = find_kernels(standard_kernels if arguments.kernels is None else chosen, build)
     standard = SCENES if arguments.quick else SCENES + MORE_SCENES
-    scenes = find_scenes(arguments.scenes or standard)
+    scenes = find_scenes(standard if arguments.scenes is None else arguments.scenes)
     extent = extent_of(arguments)
     threads = len(os.sched_getaffinity(0))
     growth = [Scene(f'{GROWTH}@{scale:g}', results / 'scenes' / f'{GROWTH}-{scale}.scene',

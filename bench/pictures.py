@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Images of kernels beside each other."""
 
+import math
+import struct
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -8,6 +10,9 @@ import imageio
 import numpy as np
 from numpy.typing import NDArray
 
+EXR_MAGIC = b'v/1\x01'
+EXR_ROWS_PER_BLOCK = [1, 1, 1, 16, 32, 16, 32, 32, 32, 256]  # by compression
+PNG_END = b'IEND\xaeB`\x82'
 BRIGHTEST = 0.5  # of a difference image, in linear intensity
 
 
@@ -38,6 +43,11 @@ def check_images(base: Path, width: int, height: int) -> None:
     for ending, image_format in [('.exr', 'EXR-FI'), ('.png', 'PNG-PIL')]:
         name = f'{base.name}{ending}'
         try:
+            data = Path(f'{base}{ending}').read_bytes()
+            if ending == '.exr':
+                _check_whole(data)
+            elif not data.endswith(PNG_END):
+                raise ValueError('ends too early')
             found = imageio.imread(f'{base}{ending}', format=image_format).shape
         except FileNotFoundError:
             raise BadImage(f'{name}: there is none') from None
@@ -45,6 +55,28 @@ def check_images(base: Path, width: int, height: int) -> None:
             raise BadImage(f'{name}: {error}') from None
         if found != (height, width, 3):
             raise BadImage(f'{name} has the shape {found}, not {(height, width, 3)}')
+
+
+def _check_whole(exr: bytes) -> None:
+    """Whether all blocks of scan lines are there: FreeImage never returns from half a file.
+
+    @throws struct.error, ValueError or IndexError otherwise
+    """
+    if exr[:4] != EXR_MAGIC:
+        raise ValueError('is no OpenEXR file')
+    position, attributes = 8, {}
+    while exr[position] != 0:  # name, type, size, value
+        name, kind = exr[position:position + 512].split(b'\0', 2)[:2]
+        position += len(name) + len(kind) + 2
+        size, = struct.unpack_from('<I', exr, position)
+        attributes[name] = exr[position + 4:position + 4 + size]
+        position += 4 + size
+    _, top, _, bottom = struct.unpack('<4i', attributes[b'dataWindow'])
+    blocks = math.ceil((bottom - top + 1) / EXR_ROWS_PER_BLOCK[attributes[b'compression'][0]])
+    for offset in struct.unpack_from(f'<{blocks}Q', exr, position + 1):
+        _, size = struct.unpack_from('<iI', exr, offset)
+        if offset + 8 + size > len(exr):
+            raise ValueError('ends too early')
 
 
 def to_srgb(linear: NDArray[np.float32]) -> NDArray[np.uint8]:
