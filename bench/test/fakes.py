@@ -157,9 +157,16 @@ class Bench:
                                     'stdin': subprocess.DEVNULL, 'check': False}
         return subprocess.run(self.command(*arguments), timeout=timeout, **(settings | process))
 
-    def start(self, *arguments: str | Path) -> subprocess.Popen[str]:
-        return subprocess.Popen(self.command(*arguments), stdin=subprocess.DEVNULL, text=True,
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    @contextmanager
+    def started(self, *arguments: str | Path) -> Iterator[subprocess.Popen[str]]:
+        """bench.py as it runs, which is killed in the end if it does not end before."""
+        process = subprocess.Popen(self.command(*arguments), stdin=subprocess.DEVNULL, text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        try:
+            yield process
+        finally:
+            process.kill()
+            process.communicate()
 
     def invocations(self, but: Sequence[str] = ('warm-up',)) -> list[str]:
         """'KERNEL KIND SCENE THREADS' of each run that began, in their order.

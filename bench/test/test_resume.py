@@ -54,11 +54,9 @@ def killed(tmp_path_factory: pytest.TempPathFactory) -> Bench:
     before: dict[str, str] = {}
     for _ in range(KILLS):
         enough = len(bench.invocations(but=())) + moments.randint(1, 4)
-        process = bench.start()
-        wait_for(lambda: len(bench.invocations(but=())) >= enough, process)
-        time.sleep(moments.uniform(0, 0.06))
-        process.kill()
-        process.communicate()
+        with bench.started() as process:
+            wait_for(lambda: len(bench.invocations(but=())) >= enough, process)
+            time.sleep(moments.uniform(0, 0.06))
         wait_for(lambda: not bench.processes())
         after = results(bench)
         assert after.items() >= before.items(), 'a result was lost or measured again'
@@ -107,10 +105,10 @@ def test_a_signal_ends_it_and_its_kernel_and_keeps_results(
     bench = Bench(tmp_path)
     bench.scene('hall')
     bench.kernel('stubborn', HANG)
-    process = bench.start()
-    wait_for(lambda: 'stubborn render hall.scene 2' in bench.invocations(), process)
-    process.send_signal(number)
-    _, errors = process.communicate(timeout=PATIENCE_S)
+    with bench.started() as process:
+        wait_for(lambda: 'stubborn render hall.scene 2' in bench.invocations(), process)
+        process.send_signal(number)
+        _, errors = process.communicate(timeout=PATIENCE_S)
     assert (process.returncode, errors) == (status, said)
     assert bench.processes() == []
     assert {path.name for path in bench.results.iterdir()} == {'.lock', 'box'}
@@ -263,10 +261,9 @@ def test_fresh_forgets_these_kernels_on_these_scenes_only(done: Bench) -> None:
     before = results(done)
     mine = {name for name in before if '/box/funky-kd/' in name}
     done.kernel('funky-kd', 'if KIND == "render": time.sleep(100)')
-    process = done.start('--fresh', '--kernels', 'funky-kd', '--scenes', done.scenes / 'box.scene')
-    wait_for(lambda: done.invocations()[-1:] == ['funky-kd render box.scene 2'], process)
-    process.terminate()
-    process.communicate()
+    box = done.scenes / 'box.scene'
+    with done.started('--fresh', '--kernels', 'funky-kd', '--scenes', box) as process:
+        wait_for(lambda: done.invocations()[-1:] == ['funky-kd render box.scene 2'], process)
     after = results(done)
     assert after == {name: text for name, text in before.items() if name not in mine}
     assert (done.results / 'box/simple-bvh/record.rays').exists()
