@@ -14,6 +14,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormat
 
 from metrics import (BYTES_PER_TRIANGLE, FINAL, INITIALIZE, PEAK, RATE, RATE_H, RATE_MIXED, RATE_V,
                      SQUARED_ERROR, TOTAL, Measured, Metric, Spread)
+from process import end_with_parent
 
 matplotlib.use('Agg')
 matplotlib.rcParams.update({
@@ -420,7 +421,11 @@ def draw_all(measured: Measured, folder: Path) -> list[str]:
                  for number, scene in enumerate(measured.scenes)
                  for name, draw in SCENE_FIGURES.items()}
     overall = {name: partial(draw, measured) for name, draw in OVERALL_FIGURES.items()}
-    with ProcessPoolExecutor() as pool:
+    with ProcessPoolExecutor(initializer=end_with_parent) as pool:
         drawn = [pool.submit(_draw, name, draw, folder)
                  for name, draw in (of_scenes | overall).items()]
-        return [name for figure in drawn if (name := figure.result())]
+        try:
+            return [name for figure in drawn if (name := figure.result())]
+        except BaseException:  # a signal among others
+            pool.shutdown(cancel_futures=True)
+            raise

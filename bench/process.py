@@ -12,6 +12,7 @@ from pathlib import Path
 
 from results import DONE
 
+LIBC = ctypes.CDLL(None)
 PR_SET_PDEATHSIG = 1
 CRASHES = {signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL}
 FILE_BYTES = 2**30  # that a process may write into one file
@@ -32,6 +33,11 @@ class Outcome:
 
     status: str
     message: str = ''
+
+
+def end_with_parent() -> None:
+    """Lets this process be killed when the one that started it has ended, in whatever way."""
+    LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def last_line(path: Path) -> str:
@@ -65,12 +71,11 @@ def _outcome(status: int, message: str) -> Outcome:
 
 def run_process(command: list[str], text: Path, limits: Limits) -> Outcome:
     """Runs a process with all that it prints in a file, and ends it and its children in time."""
-    libc = ctypes.CDLL(None)
     _, most = resource.getrlimit(resource.RLIMIT_AS)
     size = limits.bytes if most == resource.RLIM_INFINITY else min(limits.bytes, most)
 
     def restrict() -> None:
-        libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+        end_with_parent()
         resource.setrlimit(resource.RLIMIT_AS, (size, size))
         resource.setrlimit(resource.RLIMIT_FSIZE, (FILE_BYTES, FILE_BYTES))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
