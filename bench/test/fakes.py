@@ -161,7 +161,8 @@ class Bench:
     def started(self, *arguments: str | Path) -> Iterator[subprocess.Popen[str]]:
         """bench.py as it runs, which is killed in the end if it does not end before."""
         process = subprocess.Popen(self.command(*arguments), stdin=subprocess.DEVNULL, text=True,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   start_new_session=True)
         try:
             yield process
         finally:
@@ -189,6 +190,19 @@ def is_running(pid: int, word: str) -> bool:
         return word in Path(f'/proc/{pid}/cmdline').read_text()
     except OSError:
         return False
+
+
+def session(leader: int) -> set[int]:
+    """Processes, not zombies, of the session of a process, itself included."""
+    found = set()
+    for path in Path('/proc').glob('[0-9]*/stat'):
+        try:
+            state, _, _, of_session = path.read_text().rpartition(')')[2].split()[:4]
+        except OSError:  # it has ended
+            continue
+        if int(of_session) == leader and state != 'Z':
+            found.add(int(path.parent.name))
+    return found
 
 
 def complaint(result: subprocess.CompletedProcess[str], status: int) -> str:

@@ -12,10 +12,11 @@ from pathlib import Path
 
 import pytest
 
-from fakes import Bench, complaint, files, mounted_disk
+from fakes import Bench, complaint, files, mounted_disk, session
 from metrics import RATE
 from plan import CONTROL, RECORD, RENDER, REPLAY, Run
 from results import locked
+from stored import Stored
 
 KILLS = 6
 PATIENCE_S = 30
@@ -113,6 +114,19 @@ def test_a_signal_ends_it_and_its_kernel_and_keeps_results(
     assert bench.processes() == []
     assert {path.name for path in bench.results.iterdir()} == {'.lock', 'box'}
     assert len(results(bench)) == 1
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_a_signal_while_figures_are_drawn_leaves_no_process(tmp_path: Path,
+                                                            number: signal.Signals) -> None:
+    bench = Bench(tmp_path)
+    Stored(bench.results).benchmark(['box', 'hall'])
+    with bench.started('--report-only') as process:
+        wait_for(lambda: len(session(process.pid)) > 1, process)
+        process.send_signal(number)
+        process.communicate(timeout=PATIENCE_S)
+        wait_for(lambda: not session(process.pid))
+    assert not bench.output.with_name('report.pdf').exists()
 
 
 # ---- What is out of date ------------------------------------------------------------------------

@@ -16,7 +16,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-PYTHON_TESTS = [HERE / 'program', HERE.parents[1] / 'scenes' / 'test']
+PYTHON_TESTS = [HERE / 'program', HERE.parents[1] / 'scenes' / 'test',
+                HERE.parents[1] / 'bench' / 'test']
 
 
 def python_tests() -> list[Path]:
