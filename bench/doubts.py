@@ -47,20 +47,22 @@ def wide_spread(measured: Measured) -> Iterator[str]:
 
 def load(measured: Measured) -> Iterator[str]:
     runs = [result for result in measured.results if result.kind in (RENDER, CONTROL, REPLAY)]
-    for key, limit, what in [('others', BUSY, 'other processes took'),
-                             ('stolen', TOLERATED_STEAL, 'other virtual machines took (steal time)')]:
+    for key, limit, what in [
+            ('others', BUSY, 'other processes took'),
+            ('stolen', TOLERATED_STEAL, 'other virtual machines took (steal time)')]:
         shares = [result.bench['disturbance'][key] for result in runs]
         disturbed = [share for share in shares if share > limit]
         if disturbed:
-            yield (f'The machine was not quiet: in {len(disturbed)} of {len(shares)} runs {what} more '
-                   f'than {percent(limit)} of its processor time, at most {percent(max(disturbed))}.')
+            yield (f'The machine was not quiet: in {len(disturbed)} of {len(shares)} runs {what} '
+                   f'more than {percent(limit)} of its processor time, at most '
+                   f'{percent(max(disturbed))}.')
 
 
 def machine(measured: Measured) -> Iterator[str]:
     machines = [result.bench['machine'] for result in measured.results]
     if any(one['virtual'] for one in machines):
-        yield ('Measured in a virtual machine: what its host does meanwhile cannot be seen, and the '
-               'clock of the processor neither.')
+        yield ('Measured in a virtual machine: what its host does meanwhile cannot be seen, and '
+               'the clock of the processor neither.')
     governors = {one['governor'] for one in machines} - {'', 'performance'}
     if governors:
         yield f"The scaling governor is {', '.join(sorted(governors))}, not performance."
@@ -85,8 +87,8 @@ def builds(measured: Measured) -> Iterator[str]:
     if any('-O0' in program['flags'] or 'sanitize' in program['flags'] for program in programs):
         yield 'A debug build, or one with sanitizers, was measured.'
     for key, what in [('flags', 'The framework was compiled with different flags for the kernels.'),
-                      ('kernel_flags', 'Kernels were compiled with different flags: see the table of '
-                                       'compilers.'),
+                      ('kernel_flags', 'Kernels were compiled with different flags: see the table '
+                                       'of compilers.'),
                       ('compiler', 'Different compilers were used.'),
                       ('commit', 'The kernels are of different commits.')]:
         if len({program[key] for program in programs}) > 1:
@@ -102,14 +104,14 @@ def extent(measured: Measured) -> Iterator[str]:
             yield f"The runs differ in {key.replace('_', ' ')}."
     if any(result.fingerprint['replay_seconds'] < SHORT_REPLAY for result in done
            if result.kind == REPLAY):
-        yield ('Quick replays: their rates were timed over less than a second at a time, and are for '
-               'a first look only.')
+        yield ('Quick replays: their rates were timed over less than a second at a time, and are '
+               'for a first look only.')
     times = [result.report['time']['render_s'] for scene in measured.scenes
              for kernel in measured.kernels if (result := measured.first(scene, kernel))]
     short = [time for time in times if time < SHORT_RENDERING]
     if short:
-        yield (f'Short runs: {len(short)} of {len(times)} pairs of kernel and scene rendered for less '
-               f'than {SHORT_RENDERING} s.')
+        yield (f'Short runs: {len(short)} of {len(times)} pairs of kernel and scene rendered for '
+               f'less than {SHORT_RENDERING} s.')
 
 
 def answers(measured: Measured) -> Iterator[str]:
@@ -123,8 +125,8 @@ def answers(measured: Measured) -> Iterator[str]:
                         if (result.scene, result.kernel) == (scene, kernel) and result.done
                         and result.kind in (RENDER, CONTROL)}
             if len(averages) > 1:
-                yield (f'{kernel} answers differently from run to run on {scene}: its images of the '
-                       'same seed are not the same.')
+                yield (f'{kernel} answers differently from run to run on {scene}: its images of '
+                       'the same seed are not the same.')
 
 
 def leaks(measured: Measured) -> Iterator[str]:
