@@ -10,6 +10,7 @@
 import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
@@ -159,7 +160,7 @@ class Bench:
 
     @contextmanager
     def started(self, *arguments: str | Path) -> Iterator[subprocess.Popen[str]]:
-        """bench.py as it runs, which is killed in the end if it does not end before."""
+        """bench.py as it runs, which is killed in the end, if need be, with what it left behind."""
         process = subprocess.Popen(self.command(*arguments), stdin=subprocess.DEVNULL, text=True,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    start_new_session=True)
@@ -167,6 +168,8 @@ class Bench:
             yield process
         finally:
             process.kill()
+            for pid in session(process.pid) - {process.pid}:
+                os.kill(pid, signal.SIGKILL)
             process.communicate()
 
     def invocations(self, but: Sequence[str] = ('warm-up',)) -> list[str]:

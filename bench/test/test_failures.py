@@ -142,6 +142,8 @@ HANG = '''
 child = os.fork()
 if child == 0:
     note(f'{os.getpid()} hanging child box.scene 2')
+time.sleep(5)
+note(f'{os.getpid()} hanging beyond its limit')
 time.sleep(100)
 '''
 STUBBORN = '''
@@ -170,6 +172,7 @@ def test_a_kernel_that_hangs_is_ended(hanging: Bench, name: str) -> None:
 
 def test_a_kernel_that_hangs_leaves_no_process(hanging: Bench) -> None:
     assert 'hanging child box.scene 2' in hanging.invocations()
+    assert 'hanging beyond its limit' not in hanging.invocations()
     assert hanging.processes() == []
 
 

@@ -71,6 +71,24 @@ def test_a_result_replaces_all_files_of_an_older_one(stored: Stored, tmp_path: P
     assert {file.suffix for file in path.parent.iterdir()} == {'.json', '.txt'}
 
 
+def test_a_result_appears_in_one_step_after_its_other_files(
+        stored: Stored, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = stored.folder / 'box/funky-kd/render-4-threads-9'
+    (tmp_path / 'unfinished').mkdir()
+    (tmp_path / 'unfinished' / 'run.txt').write_text('new')
+    moved: list[str] = []
+
+    def replace(source: object, target: object) -> None:
+        moved.append(Path(str(target)).suffix)
+        if moved[-1] == '.json':
+            raise KeyboardInterrupt
+    monkeypatch.setattr('results.os.replace', replace)
+    with pytest.raises(KeyboardInterrupt):
+        write_result(path, {}, {}, tmp_path / 'unfinished')
+    assert moved == ['.txt', '.json']
+    assert not path.with_suffix('.json').exists()
+
+
 def test_one_at_a_time_holds_the_lock(tmp_path: Path) -> None:
     with locked(tmp_path / 'results') as unfinished:
         assert unfinished.is_dir()
