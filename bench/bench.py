@@ -177,16 +177,22 @@ def main() -> int:
     return DONE if any(result.done for result in measured.results) else FAILED
 
 
+def run() -> int:
+    """main(), with a line on standard error for what went wrong."""
+    try:
+        return main()
+    except KeyboardInterrupt:
+        status, message = FAILED, 'interrupted; the results so far are kept'
+    except UsageError as error:
+        status, message = WRONG_USAGE, str(error)
+    except (LatexError, ReportError, ResultsError, OSError) as error:
+        status, message = FAILED, str(error)
+    print(f'bench.py: {message}', file=sys.stderr)
+    return status
+
+
 if __name__ == '__main__':
     for stream in (sys.stdout, sys.stderr):  # names of files may hold what they cannot show
         stream.reconfigure(errors='backslashreplace')  # type: ignore[attr-defined]
     signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
-    try:
-        sys.exit(main())
-    except KeyboardInterrupt:
-        sys.exit('bench.py: interrupted; the results so far are kept')
-    except UsageError as error:
-        print(f'bench.py: {error}', file=sys.stderr)
-        sys.exit(WRONG_USAGE)
-    except (LatexError, ReportError, ResultsError, OSError) as error:
-        sys.exit(f'bench.py: {error}')
+    sys.exit(run())
