@@ -136,7 +136,7 @@ def write_images(base: Path, exposure: float = 1) -> None:
 
 
 class Stored:
-    """A folder of results that is being filled. Each run begins ten seconds after the one before."""
+    """A folder of results that is being filled. Each run begins ten seconds after the last."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder

@@ -5,6 +5,8 @@ import os
 import re
 import shlex
 import shutil
+import subprocess
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -28,9 +30,22 @@ def bench(tmp_path_factory: pytest.TempPathFactory) -> Bench:
     return bench
 
 
-@pytest.fixture(autouse=True)
-def nothing_is_run(bench: Bench) -> object:
-    yield
+Call = Callable[..., subprocess.CompletedProcess[str]]
+
+
+@pytest.fixture
+def call(bench: Bench, monkeypatch: pytest.MonkeyPatch,
+         capsys: pytest.CaptureFixture[str]) -> Iterator[Call]:
+    """Calls bench.py within this process, which is faster; nothing may be measured by it."""
+    def result_of(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+        command = bench.command(*arguments)
+        monkeypatch.setattr('sys.argv', command[1:])
+        try:
+            status = bench_py.run()
+        except SystemExit as ended:  # by argparse
+            status = int(str(ended.code))
+        return subprocess.CompletedProcess(command, status, *capsys.readouterr())
+    yield result_of
     assert bench.invocations() == []
     assert not bench.results.exists()
 
@@ -38,8 +53,8 @@ def nothing_is_run(bench: Bench) -> object:
 # ---- Lists --------------------------------------------------------------------------------------
 
 
-def test_list_names_scenes_and_kernels(bench: Bench) -> None:
-    result = bench.run('--list')
+def test_list_names_scenes_and_kernels(bench: Bench, call: Call) -> None:
+    result = call('--list')
     assert (result.returncode, result.stderr) == (0, '')
     assert result.stdout.splitlines() == [
         *(f'scene   {name}: {bench.scenes / name}.scene' for name in ['box', 'hall']),
@@ -47,12 +62,13 @@ def test_list_names_scenes_and_kernels(bench: Bench) -> None:
           for name in ['funky-kd', 'other', 'simple-bvh'])]
 
 
-def test_dry_run_prints_commands_that_a_shell_understands(bench: Bench, tmp_path: Path) -> None:
+def test_dry_run_prints_commands_that_a_shell_understands(bench: Bench, call: Call,
+                                                          tmp_path: Path) -> None:
     odd = tmp_path / "it's a scene.scene"
     odd.write_text('triangles box.ra2\n')
     odd.with_suffix('.camera').write_text('')
-    result = bench.run('--dry-run', '--scenes', odd, '--kernels', 'simple-bvh:a=1,b=$x',
-                       '--repeats', '2', '--passes', '7', '--threads', '3', '--size', '12x34')
+    result = call('--dry-run', '--scenes', odd, '--kernels', 'simple-bvh:a=1,b=$x', '--repeats', '2',
+                  '--passes', '7', '--threads', '3', '--size', '12x34')
     assert (result.returncode, result.stderr) == (0, '')
     commands = [shlex.split(line) for line in result.stdout.splitlines()]
     assert all(words[:2] == [str(bench.build / 'bwfirt-simple-bvh'), str(odd)]
@@ -87,8 +103,8 @@ def test_the_standard_scenes_exist() -> None:
 
 
 @pytest.mark.parametrize('arguments, message', [
-    (['--kernels', 'missing'], "the kernel 'missing' is not built in .*; built are: funky-kd, other, "
-     'simple-bvh, yourkernel'),
+    (['--kernels', 'missing'], "the kernel 'missing' is not built in .*; built are: funky-kd, "
+     'other, simple-bvh, yourkernel'),
     (['--kernels', 'other:a=1,missing'], "the kernel 'missing' is not built in .*"),
     (['--kernels', 'folder'], "the kernel 'folder' is not built in .*"),
     (['--scenes', 'missing'], '.*/missing.scene does not exist'),
@@ -98,18 +114,18 @@ def test_the_standard_scenes_exist() -> None:
     (['--kernels', ''], 'there is no kernel to measure in .*'),
     (['--kernels', 'other', '--build', '/no/such/build'],
      "the kernel 'other' is not built in /no/such/build; built are: none")])
-def test_unknown_names_are_wrong_usage(bench: Bench, arguments: list[str], message: str) -> None:
-    assert re.fullmatch(message, complaint(bench.run(*arguments), 2))
+def test_unknown_names_are_wrong_usage(call: Call, arguments: list[str], message: str) -> None:
+    assert re.fullmatch(message, complaint(call(*arguments), 2))
 
 
 @pytest.mark.parametrize('what', ['--list', '--dry-run'])
-def test_unknown_names_are_wrong_usage_in_lists_too(bench: Bench, what: str) -> None:
-    assert complaint(bench.run('--scenes', 'missing', what), 2).endswith('does not exist')
+def test_unknown_names_are_wrong_usage_in_lists_too(call: Call, what: str) -> None:
+    assert complaint(call('--scenes', 'missing', what), 2).endswith('does not exist')
 
 
-def test_a_scene_without_camera_is_wrong_usage(bench: Bench, tmp_path: Path) -> None:
+def test_a_scene_without_camera_is_wrong_usage(call: Call, tmp_path: Path) -> None:
     (tmp_path / 'a.scene').write_text('')
-    assert complaint(bench.run('--scenes', tmp_path / 'a.scene'), 2) == (
+    assert complaint(call('--scenes', tmp_path / 'a.scene'), 2) == (
         f"{tmp_path / 'a.camera'} does not exist: a scene needs a camera beside it")
 
 
@@ -127,37 +143,38 @@ def test_bad_numbers_are_wrong_usage(option: str, value: str, capsys: pytest.Cap
 
 @pytest.mark.parametrize('arguments', [['--no-such-option'], ['cornell'], ['--list', '--dry-run'],
                                        ['--compare']])
-def test_a_wrong_command_line(bench: Bench, arguments: list[str]) -> None:
-    result = bench.run(*arguments)
+def test_a_wrong_command_line(call: Call, arguments: list[str]) -> None:
+    result = call(*arguments)
     assert (result.returncode, result.stdout) == (2, '')
     assert result.stderr.splitlines()[-1].startswith('bench.py: error: ')
 
 
-def test_a_report_of_nothing_fails(bench: Bench) -> None:
-    assert complaint(bench.run('--report-only'), 1) == 'there are no results to report'
+def test_a_report_of_nothing_fails(bench: Bench, call: Call) -> None:
+    assert complaint(call('--report-only'), 1) == 'there are no results to report'
     assert not bench.output.with_suffix('.csv').exists()
 
 
-def test_a_comparison_with_nothing_fails(bench: Bench, tmp_path: Path) -> None:
+def test_a_comparison_with_nothing_fails(bench: Bench, call: Call, tmp_path: Path) -> None:
     Stored(tmp_path).run('box', 'a')
-    assert complaint(bench.run('--compare', tmp_path), 1) == (
+    assert complaint(call('--compare', tmp_path), 1) == (
         f'{bench.results}: there are no results')
-    result = bench.run('--results', tmp_path, '--compare', tmp_path / 'missing')
+    result = call('--results', tmp_path, '--compare', tmp_path / 'missing')
     assert complaint(result, 1) == f"{tmp_path / 'missing'}: there are no results"
 
 
-def test_a_comparison_is_printed(bench: Bench, tmp_path: Path) -> None:
+def test_a_comparison_is_printed(call: Call, tmp_path: Path) -> None:
     Stored(tmp_path / 'a').benchmark(rates={'simple-bvh': 20})
     Stored(tmp_path / 'b').benchmark(rates={'simple-bvh': 10})
-    result = bench.run('--results', tmp_path / 'a', '--compare', tmp_path / 'b')
+    result = call('--results', tmp_path / 'a', '--compare', tmp_path / 'b')
     assert (result.returncode, result.stderr) == (0, '')
     line = next(line for line in result.stdout.splitlines() if 'Rays, gross' in line)
     assert line.split() == ['box', 'simple-bvh', 'Rays,', 'gross', 'Mrays/s', '20', '10', '2.000',
                             'better']
 
 
-def test_an_output_folder_that_is_missing_is_told_of_before_measuring(bench: Bench) -> None:
-    message = complaint(bench.run('--output', bench.folder / 'missing' / 'report'), 1)
+def test_an_output_folder_that_is_missing_is_told_of_before_measuring(bench: Bench,
+                                                                      call: Call) -> None:
+    message = complaint(call('--output', bench.folder / 'missing' / 'report'), 1)
     assert message.startswith(str(bench.folder / 'missing'))
 
 
@@ -177,11 +194,13 @@ def test_a_missing_module_is_named_with_its_package(bench: Bench, tmp_path: Path
 
 @pytest.mark.parametrize('program, package', [
     ('pdflatex', 'texlive-latex-recommended and lmodern'), ('epstopdf', 'texlive-font-utils')])
-def test_missing_latex_is_named_with_its_package(bench: Bench, tmp_path: Path, program: str,
-                                                 package: str) -> None:
+def test_missing_latex_is_named_with_its_package(
+        call: Call, tmp_path: Path, program: str, package: str,
+        monkeypatch: pytest.MonkeyPatch) -> None:
     for other in {'pdflatex', 'epstopdf'} - {program}:
         (tmp_path / other).symlink_to(shutil.which(other) or '/missing')
-    message = complaint(bench.run(env=clean_environment(PATH=str(tmp_path))), 1)
+    monkeypatch.setenv('PATH', str(tmp_path))
+    message = complaint(call(), 1)
     assert message == f'{program} is missing: install the Debian packages {package}'
 
 

@@ -10,7 +10,8 @@ from environment import CLOCK_TICK, Disturbance
 
 CPU = 'sys/devices/system/cpu'
 FILES = {
-    'proc/cpuinfo': 'processor\t: 0\nmodel name\t: Imagined 9000: fast\nflags\t\t: fpu hypervisor x\n\n'
+    'proc/cpuinfo': 'processor\t: 0\nmodel name\t: Imagined 9000: fast\n'
+                    'flags\t\t: fpu hypervisor x\n\n'
                     'processor\t: 1\nmodel name\t: Another\n',
     'proc/meminfo': 'MemTotal:       24682416 kB\nHugePages_Total:      12\n',
     'proc/stat': 'cpu  0 0 0 0 0 0 0 0 0 0\ncpu0 1 2 3\n',

@@ -216,7 +216,7 @@ def test_a_kernel_that_answers_differently_from_run_to_run_is_a_warning(tmp_path
 
 @pytest.fixture(scope='module')
 def wrong(tmp_path_factory: pytest.TempPathFactory) -> Bench:
-    """A kernel that answers wrongly and fast, one that crashes in the replay, one without errors."""
+    """Of a kernel that answers wrongly and fast, and one that crashes in the replay."""
     bench = Bench(tmp_path_factory.mktemp('wrong'))
     bench.kernel('simple-bvh', rate=5)
     bench.kernel('funky-kd', rate=10)

@@ -2,6 +2,7 @@
 """Kernels take turns, so that a machine which drifts harms all alike."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -18,7 +19,7 @@ def bench(tmp_path: Path) -> Bench:
     return bench
 
 
-def renderings(bench: Bench, scene: str, **plan: object) -> list[list[str]]:
+def renderings(bench: Bench, scene: str, **plan: Any) -> list[list[str]]:
     """The kernels of each repeat in their order, the control marked by a star."""
     runs = [run for run in bench.plan(['simple-bvh', 'funky-kd', 'other'], **plan).runs()
             if run.kind in (RENDER, CONTROL) and run.scene.name == scene]

@@ -34,7 +34,8 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> dict[str, dict[str, byt
         'here': write_in_new_process(folder / 'here', folder / 'a', TZ='Pacific/Auckland'),
         'there': write_in_new_process(folder / 'there', folder / 'other', TZ='UTC',
                                       PYTHONHASHSEED='7', LC_ALL='C'),
-        'dated': write_in_new_process(folder / 'here', folder / 'c', SOURCE_DATE_EPOCH='1000000000'),
+        'dated': write_in_new_process(folder / 'here', folder / 'c',
+                                      SOURCE_DATE_EPOCH='1000000000'),
     }
 
 

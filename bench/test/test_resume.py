@@ -8,7 +8,9 @@ import signal
 import subprocess
 import time
 from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -18,17 +20,21 @@ from plan import CONTROL, RECORD, RENDER, REPLAY, Run
 from results import locked
 from stored import Stored
 
-KILLS = 6
+KILLS = 5
 PATIENCE_S = 30
 WAIT = 'time.sleep(0.02)'
-HANG = 'for number in (signal.SIGTERM, signal.SIGINT):\n    signal.signal(number, signal.SIG_IGN)\n' \
-       'if SCENE == "hall.scene" and KIND == "render":\n    time.sleep(100)'
+HANG = '''
+for number in (signal.SIGTERM, signal.SIGINT):
+    signal.signal(number, signal.SIG_IGN)
+if SCENE == "hall.scene" and KIND == "render":
+    time.sleep(100)
+'''
 
 
-def wait_for(happened: object, process: subprocess.Popen[str] | None = None) -> None:
+def wait_for(happened: Callable[[], object], process: subprocess.Popen[str] | None = None) -> None:
     """Until something is so, or a process has ended."""
     end = time.monotonic() + PATIENCE_S
-    while not happened() and (process is None or process.poll() is None):  # type: ignore[operator]
+    while not happened() and (process is None or process.poll() is None):
         assert time.monotonic() < end, 'it did not happen in time'
         time.sleep(0.002)
 
@@ -159,9 +165,10 @@ def done(measured_once: Bench, tmp_path: Path) -> Bench:
     return measured_once.copy(tmp_path)
 
 
-def missing(bench: Bench, **plan: object) -> Counter[tuple[str, str, str]]:
+def missing(bench: Bench, **plan: Any) -> Counter[tuple[str, str, str]]:
     """Scene, kernel and kind of the runs that would be made."""
-    runs = bench.measurement(bench.plan(**{'repeats': 2, **plan})).missing()
+    plan = {'repeats': 2, **plan}
+    runs = bench.measurement(bench.plan(**plan)).missing()
     return Counter((run.scene.name, run.kernel.name, run.kind) for run in runs)
 
 
@@ -229,7 +236,7 @@ def test_files_written_anew_with_the_same_content_change_nothing(done: Bench) ->
     ({'time_limit': 5}, Counter()),
     ({'repeats': 1}, Counter())])
 def test_another_option_means_new_runs_where_it_matters(
-        done: Bench, option: dict[str, object], runs: Counter[tuple[str, str, str]]) -> None:
+        done: Bench, option: dict[str, Any], runs: Counter[tuple[str, str, str]]) -> None:
     assert missing(done, **option) == runs
 
 

@@ -121,7 +121,8 @@ def test_break_even(tmp_path: Path, build: float, rate: float, text: str) -> Non
 
 def test_average_intensity_beside_its_reference(tmp_path: Path) -> None:
     stored = Stored(tmp_path)
-    stored.run('box', 'a', report={'average_intensity': [0.26, 0, 0], 'standard_error': [0.004, 0, 0],
+    stored.run('box', 'a', report={'average_intensity': [0.26, 0, 0],
+                                   'standard_error': [0.004, 0, 0],
                                    'reference_average_intensity': [0.25, 0, 0]})
     stored.run('box', 'b', report={'standard_error': [None] * 3,
                                    'reference_average_intensity': None})
@@ -173,7 +174,8 @@ def lines(here: Stored, there: Stored, figure: str = 'Rays, gross') -> list[list
             for line in text.splitlines() if figure in line]
 
 
-def test_comparison_tells_ratio_and_whether_it_exceeds_the_noise(here: Stored, there: Stored) -> None:
+def test_comparison_tells_ratio_and_whether_it_exceeds_the_noise(here: Stored,
+                                                                 there: Stored) -> None:
     kernels = ['simple-bvh', 'funky-kd', 'third']
     here.benchmark(kernels=kernels, rates={'simple-bvh': 12, 'funky-kd': 10, 'third': 4})
     there.benchmark(kernels=kernels, rates={'simple-bvh': 10, 'funky-kd': 10.1, 'third': 5})
