@@ -4,10 +4,12 @@
 import csv
 import io
 import os
+import shlex
 import shutil
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
+from ctypes.util import find_library
 from dataclasses import dataclass
 from datetime import datetime, timezone
 from pathlib import Path
@@ -88,10 +90,16 @@ def scene_reports(measured: Measured, folder: Path) -> list[SceneReport]:
 
 
 def moment(measured: Measured) -> datetime:
-    """SOURCE_DATE_EPOCH, or when the last run began: the same results make the same report."""
+    """SOURCE_DATE_EPOCH, or when the last run began: the same results make the same report.
+
+    @throws ReportError where SOURCE_DATE_EPOCH is no number
+    """
     given = os.environ.get('SOURCE_DATE_EPOCH')
-    if given:
-        return datetime.fromtimestamp(int(given), timezone.utc)
+    try:
+        if given:
+            return datetime.fromtimestamp(int(given), timezone.utc)
+    except (ValueError, OverflowError):
+        raise ReportError(f'SOURCE_DATE_EPOCH is {given}, not a number of seconds') from None
     return max(datetime.fromisoformat(result.bench['started']) for result in measured.results)
 
 
@@ -99,14 +107,15 @@ def commands(measured: Measured) -> list[str]:
     """What reproduces the results, and one command of each kernel."""
     done = [result for result in measured.results if result.done]
     commits = sorted({run.report['program']['commit'] for run in done})
-    arguments = measured.results[-1].bench['arguments']
+    benches = dict.fromkeys(shlex.join(['bench/bench.py', *result.bench['arguments']])
+                            for result in measured.results)
     lines = [*(f'git checkout {commit.removesuffix("-dirty")}' for commit in commits[:1]),
-             'bench/setup.sh && scons && scons scenes', ' '.join(['bench/bench.py', *arguments])]
+             'bench/setup.sh && scons && scons scenes', *benches]
     for kernel in measured.kernels:
         first = next((run for run in done if run.kernel == kernel and run.kind != REPLAY), None)
         if first:
-            lines.append(' '.join(Path(word).name if word.startswith('/') else word
-                                  for word in first.bench['command']))
+            lines.append(shlex.join(Path(word).name if word.startswith('/') else word
+                                    for word in first.bench['command']))
     return lines
 
 
@@ -202,9 +211,11 @@ def require_output(base: Path) -> None:
     """What can be known before hours of measuring.
 
     @throws LatexError where LaTeX is not installed
-    @throws ReportError where the folder cannot be written to
+    @throws ReportError where FreeImage is not, or the folder cannot be written to
     """
     require_latex()
+    if find_library('freeimage') is None:
+        raise ReportError('FreeImage is missing: install the Debian package libfreeimage3')
     folder = base.absolute().parent
     if not os.access(folder, os.W_OK):
         raise ReportError(f'{folder}: cannot be written to')

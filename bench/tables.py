@@ -97,9 +97,9 @@ def kernels(measured: Measured) -> Table:
     return Table(f'Geometric means over the scenes, relative to {measured.reference}',
                  ['kernel', *(names[metric] for metric in metrics), 'wrong ppm', 'failures'],
                  [row(kernel) for kernel in measured.kernels],
-                 'Times and memory: less is better; rays, h, V (replayed): more is better. A number '
-                 'in brackets tells of how many scenes a mean is, where it is not of all. Wrong: '
-                 'answers in a million, on the worst scene.')
+                 'Times and memory: less is better; rays, h, V (replayed): more is better. A '
+                 'number in brackets tells of how many scenes a mean is, where it is not of '
+                 'all. Wrong: answers in a million, on the worst scene.')
 
 
 def failure_table(measured: Measured) -> Table:
@@ -188,8 +188,8 @@ def control(measured: Measured) -> Table:
     return Table('Control: a kernel against itself', ['scene', 'kernel', 'rays per second',
                                                       'total time', 'initialise', 'render'], rows,
                  'The difference of medians of the same kernel, measured twice in each turn. Noise '
-                 'is the largest of them, up or down; a smaller difference between kernels is shown '
-                 'as none.')
+                 'is the largest of them, up or down; a smaller difference between kernels is '
+                 'shown as none.')
 
 
 def break_even(measured: Measured) -> Table:

@@ -67,8 +67,8 @@ def test_dry_run_prints_commands_that_a_shell_understands(bench: Bench, call: Ca
     odd = tmp_path / "it's a scene.scene"
     odd.write_text('triangles box.ra2\n')
     odd.with_suffix('.camera').write_text('')
-    result = call('--dry-run', '--scenes', odd, '--kernels', 'simple-bvh:a=1,b=$x', '--repeats', '2',
-                  '--passes', '7', '--threads', '3', '--size', '12x34')
+    result = call('--dry-run', '--scenes', odd, '--kernels', 'simple-bvh:a=1,b=$x',
+                  '--repeats', '2', '--passes', '7', '--threads', '3', '--size', '12x34')
     assert (result.returncode, result.stderr) == (0, '')
     commands = [shlex.split(line) for line in result.stdout.splitlines()]
     assert all(words[:2] == [str(bench.build / 'bwfirt-simple-bvh'), str(odd)]
