@@ -358,7 +358,7 @@ def break_even(measured: Measured) -> Figure | None:
               if sum(measured.first(scene, kernel) is not None for kernel in measured.kernels) > 1]
     if not scenes:
         return None
-    columns = min(3, len(scenes))
+    columns = min(3 if len(scenes) <= 9 else 4, len(scenes))
     rows = math.ceil(len(scenes) / columns)
     figure = Figure(figsize=(2 * WIDTH, 0.6 + 1.45 * rows))
     all_axes = list(figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).flat)

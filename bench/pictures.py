@@ -8,12 +8,15 @@ from pathlib import Path
 
 import imageio
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 EXR_MAGIC = b'v/1\x01'
 EXR_ROWS_PER_BLOCK = [1, 1, 1, 16, 32, 16, 32, 32, 32, 256]  # by compression
 PNG_END = b'IEND\xaeB`\x82'
 BRIGHTEST = 0.5  # of a difference image, in linear intensity
+FEW = 0.01  # differing pixels of all: they could hardly be seen, and are drawn larger,
+SPOTS = 50  # so that as many fit side by side
 
 
 class BadImage(Exception):
@@ -28,6 +31,7 @@ class Difference:
     of: int  # pixels in the image
     largest: float  # absolute difference of a channel, linear
     factor: float  # by which the difference image is brighter than the difference, a power of two
+    is_enlarged: bool  # whether pixels are drawn larger, because they are few
 
 
 def read_linear(path: Path) -> NDArray[np.float32]:
@@ -86,6 +90,15 @@ def to_srgb(linear: NDArray[np.float32]) -> NDArray[np.uint8]:
     return np.rint(255 * encoded).astype(np.uint8)
 
 
+def enlarged(image: NDArray[np.float32], width: int) -> NDArray[np.float32]:
+    """Each pixel as a square of about this width; the brightest one where squares overlap."""
+    radius = width // 2
+    for axis in (0, 1):
+        room = [(radius, radius) if axis == one else (0, 0) for one in range(3)]
+        image = sliding_window_view(np.pad(image, room), 2 * radius + 1, axis).max(-1)
+    return image
+
+
 def difference(image: Path, reference: Path, output: Path) -> Difference:
     """Compares two OpenEXR files of a size; writes |a - b|, brightened, where they differ.
 
@@ -98,6 +111,9 @@ def difference(image: Path, reference: Path, output: Path) -> Difference:
     differing = int((a != b).any(axis=2).sum())
     largest = float(absolute.max())
     factor = float(2 ** np.floor(np.log2(BRIGHTEST / largest))) if largest > 0 else 1.0
+    of = a.shape[0] * a.shape[1]
+    are_few = differing < FEW * of
     if differing:
-        imageio.imwrite(output, to_srgb(absolute * max(factor, 1)))
-    return Difference(differing, a.shape[0] * a.shape[1], largest, max(factor, 1))
+        shown = enlarged(absolute, a.shape[1] // SPOTS) if are_few else absolute
+        imageio.imwrite(output, to_srgb(shown * max(factor, 1)))
+    return Difference(differing, of, largest, max(factor, 1), are_few)

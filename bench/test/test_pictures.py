@@ -42,6 +42,19 @@ def test_a_difference_is_counted_and_brightened(tmp_path: Path) -> None:
     assert shown[0, 0].tolist() == [188, 0, 0]
 
 
+def test_few_pixels_that_differ_are_drawn_larger(tmp_path: Path) -> None:
+    """In 100 columns, of which 50 spots fill the width: squares of 3 pixels, cut at the edge."""
+    a = np.zeros((20, 100, 3), np.float32)
+    b = a.copy()
+    b[10, 50] = b[0, 99] = 0.5
+    found = difference(write_exr(tmp_path / 'a.exr', a), write_exr(tmp_path / 'b.exr', b),
+                       tmp_path / 'c.png')
+    assert (found.pixels, found.is_enlarged) == (2, True)
+    shown = np.argwhere(imageio.imread(tmp_path / 'c.png').any(axis=2)).tolist()
+    assert shown == [[0, 98], [0, 99], [1, 98], [1, 99],
+                     *([row, column] for row in (9, 10, 11) for column in (49, 50, 51))]
+
+
 def test_nan_is_a_difference(tmp_path: Path) -> None:
     a = np.ones((2, 2, 3), np.float32)
     b = a.copy()
