@@ -12,8 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
-from metrics import (BYTES_PER_TRIANGLE, FINAL, INITIALIZE, PEAK, RATE, RATE_H, RATE_MIXED, RATE_V,
-                     SQUARED_ERROR, TOTAL, Measured, Metric, Spread)
+from metrics import (BYTES_PER_TRIANGLE, FINAL, INITIALIZE, OVERALL, PEAK, RATE, RATE_H, RATE_MIXED,
+                     RATE_V, SQUARED_ERROR, TOTAL, Measured, Metric, Spread)
 from process import end_with_parent
 
 matplotlib.use('Agg')
@@ -61,22 +61,27 @@ def row_height(measured: Measured) -> float:
     return 0.21 if len(measured.kernels) <= 4 else 0.13
 
 
+def ppm_wrong(wrong: float) -> str:
+    """Of wrong answers in a million."""
+    return f'{si(wrong)} ppm wrong'
+
+
 def with_errors(measured: Measured, scene: str, kernel: str, text: str) -> str:
     """A figure with the kernel's wrong answers, where there are any."""
     wrong = measured.wrong_per_million(scene, kernel)
-    return f'{text}, {si(wrong)} ppm wrong' if wrong else text
+    return f'{text}, {ppm_wrong(wrong)}' if wrong else text
 
 
 def named(measured: Measured, kernel: str) -> str:
     """A kernel with its wrong answers on the worst scene, where there are any."""
     wrong = max((measured.wrong_per_million(scene, kernel) or 0 for scene in measured.scenes),
                 default=0)
-    return f'{kernel}, {si(wrong)} ppm wrong' if wrong else kernel
+    return f'{kernel}, {ppm_wrong(wrong)}' if wrong else kernel
 
 
-def range_of(spread: Spread) -> list[list[float]]:
-    """From the median down to the lowest and up to the highest, as matplotlib takes it."""
-    return [[spread.median - spread.lowest], [spread.highest - spread.median]]
+def range_of(spread: Spread, middle: float) -> list[list[float]]:
+    """From the middle down to the lowest and up to the highest, as matplotlib takes it."""
+    return [[middle - spread.lowest], [spread.highest - middle]]
 
 
 # ---- Of one scene -------------------------------------------------------------------------------
@@ -96,7 +101,8 @@ def _bars(axes: Axes, measured: Measured, scene: str, metric: Metric, below: Met
     for place, (kernel, spread) in enumerate(bars):
         index = measured.kernels.index(kernel) % len(COLOURS)
         axes.barh(place, spread.median, height=0.7, color=COLOURS[index], hatch=HATCHES[index],
-                  edgecolor='black', linewidth=0.5, xerr=range_of(spread), **ERROR_BARS)
+                  edgecolor='black', linewidth=0.5, xerr=range_of(spread, spread.median),
+                  **ERROR_BARS)
         if below:
             axes.barh(place, measured.median(below, scene, kernel), height=0.7, color=DARK)
         axes.annotate(text(kernel, spread), (spread.highest, place), xytext=(4, 0),
@@ -204,8 +210,7 @@ SCENE_FIGURES: dict[str, Callable[[Measured, str], Figure | None]] = {
 
 def geometric_means(measured: Measured) -> Figure | None:
     """Geometric means over the scenes, by the reference kernel."""
-    metrics = [TOTAL, INITIALIZE, RATE, RATE_H, RATE_V, RATE_MIXED, PEAK, FINAL]
-    shown = [metric for metric in metrics
+    shown = [metric for metric in OVERALL
              if any(measured.relative(metric, kernel) for kernel in measured.kernels)]
     if not shown or len(measured.kernels) < 2:
         return None
@@ -221,7 +226,7 @@ def geometric_means(measured: Measured) -> Figure | None:
             mean = spread.geometric_mean
             axes.barh(place, mean, height=0.7, color=COLOURS[index], hatch=HATCHES[index],
                       edgecolor='black', linewidth=0.5,
-                      xerr=[[mean - spread.lowest], [spread.highest - mean]], **ERROR_BARS)
+                      xerr=range_of(spread, mean), **ERROR_BARS)
             axes.annotate(short(mean), (spread.highest, place), xytext=(4, 0),
                           textcoords='offset points', va='center', fontsize=8, bbox=BLANK)
         axes.axvline(1, color='black', linewidth=0.8, linestyle='--')
@@ -276,8 +281,7 @@ def speed_against_memory(measured: Measured) -> Figure | None:
     for kernel, memory, speed in points:
         index = measured.kernels.index(kernel) % len(COLOURS)
         x, y = memory.geometric_mean, speed.geometric_mean
-        axes.errorbar(x, y, xerr=[[x - memory.lowest], [memory.highest - x]],
-                      yerr=[[y - speed.lowest], [speed.highest - y]], color=COLOURS[index],
+        axes.errorbar(x, y, xerr=range_of(memory, x), yerr=range_of(speed, y), color=COLOURS[index],
                       marker=MARKERS[index], markeredgecolor='black', markeredgewidth=0.5,
                       markersize=7, linestyle='', ecolor='black', elinewidth=0.6, capsize=2,
                       label=named(measured, kernel))

@@ -59,6 +59,7 @@ SQUARED_ERROR = Metric('squared_error', 'Squared error of the average intensity'
                        RENDER, lambda report: [report['squared_error']], is_exact=True)
 METRICS = [TOTAL, INITIALIZE, RENDERING, RATE, RATE_H, RATE_V, RATE_MIXED, PEAK, FINAL,
            BYTES_PER_TRIANGLE, SQUARED_ERROR]
+OVERALL = [TOTAL, INITIALIZE, RATE, RATE_H, RATE_V, RATE_MIXED, PEAK, FINAL]  # in means over scenes
 
 
 @dataclass(frozen=True)

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from doubts import failures, percent
-from figures import short, si
-from metrics import (ANSWERS, BYTES_PER_TRIANGLE, FINAL, INITIALIZE, PEAK, RATE, RATE_H, RATE_MIXED,
-                     RATE_V, RENDERING, TOTAL, Measured, Metric, Report)
+from figures import ppm_wrong, short, si
+from metrics import (ANSWERS, BYTES_PER_TRIANGLE, FINAL, INITIALIZE, OVERALL, PEAK, RATE, RATE_H,
+                     RATE_MIXED, RATE_V, RENDERING, TOTAL, Measured, Metric, Report)
 from plan import CONTROL, RECORD, REPLAY
 
 
@@ -43,7 +43,7 @@ def wrong_answers(measured: Measured, scene: str, kernel: str) -> str:
     """Empty where nothing is known against them."""
     wrong = measured.wrong_per_million(scene, kernel)
     if wrong:
-        return f'{si(wrong)} ppm wrong'
+        return ppm_wrong(wrong)
     return '' if measured.is_right(scene, kernel) else 'answers not checked'
 
 
@@ -74,7 +74,6 @@ def speed(measured: Measured) -> Table:
 
 
 def kernels(measured: Measured) -> Table:
-    metrics = [TOTAL, INITIALIZE, RATE, RATE_H, RATE_V, RATE_MIXED, PEAK, FINAL]
     failed = failures(measured)
 
     def mean(metric: Metric, kernel: str) -> Cell:
@@ -89,13 +88,13 @@ def kernels(measured: Measured) -> Table:
         wrong = [ppm for scene in measured.scenes
                  if (ppm := measured.wrong_per_million(scene, kernel)) is not None]
         count = sum(row[1] == kernel for row in failed)
-        return [Cell(kernel), *(mean(metric, kernel) for metric in metrics),
+        return [Cell(kernel), *(mean(metric, kernel) for metric in OVERALL),
                 number(max(wrong), si(max(wrong))) if wrong else Cell('not checked'),
                 number(count, str(count))]
     names = {RATE: 'rays', RATE_H: 'h', RATE_V: 'V', RATE_MIXED: 'h and V', TOTAL: 'total time',
              INITIALIZE: 'initialise', PEAK: 'peak mem.', FINAL: 'final mem.'}
     return Table(f'Geometric means over the scenes, relative to {measured.reference}',
-                 ['kernel', *(names[metric] for metric in metrics), 'wrong ppm', 'failures'],
+                 ['kernel', *(names[metric] for metric in OVERALL), 'wrong ppm', 'failures'],
                  [row(kernel) for kernel in measured.kernels],
                  'Times and memory: less is better; rays, h, V (replayed): more is better. A '
                  'number in brackets tells of how many scenes a mean is, where it is not of '
