@@ -9,6 +9,7 @@ from pathlib import Path
 
 import matplotlib
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
@@ -82,6 +83,21 @@ def named(measured: Measured, kernel: str) -> str:
 def range_of(spread: Spread, middle: float) -> list[list[float]]:
     """From the middle down to the lowest and up to the highest, as matplotlib takes it."""
     return [[middle - spread.lowest], [spread.highest - middle]]
+
+
+def label_powers(axis: Axis, text: Callable[[float, object], str], by_125: bool = False) -> None:
+    """Labels of a logarithmic axis, without those between them.
+
+    @param by_125 at 1, 2, 5, 10, ..., for axes that span few powers of ten
+    """
+    if by_125:
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(FuncFormatter(text))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def plain(x: float, _: object = None) -> str:
+    return f'{x:g}'
 
 
 # ---- Of one scene -------------------------------------------------------------------------------
@@ -188,8 +204,7 @@ def numerical_comparison(measured: Measured, scene: str) -> Figure | None:
     axes.set_xscale('log')
     axes.set_xlim(lowest / 10, highest * 300)
     axes.xaxis.set_major_locator(LogLocator(numticks=6))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f'{value:.0e}'))
-    axes.xaxis.set_minor_formatter(NullFormatter())
+    label_powers(axes.xaxis, lambda value, _: f'{value:.0e}')
     axes.set_yticks(range(len(kernels)), kernels)
     axes.set_ylim(len(kernels) - 0.4, -0.6)
     axes.grid(axis='x', linewidth=0.3)
@@ -287,9 +302,7 @@ def speed_against_memory(measured: Measured) -> Figure | None:
                       label=named(measured, kernel))
     for set_scale, axis in [(axes.set_xscale, axes.xaxis), (axes.set_yscale, axes.yaxis)]:
         set_scale('log')
-        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f'{value:g}'))
-        axis.set_minor_formatter(NullFormatter())
+        label_powers(axis, plain, by_125=True)
     axes.margins(0.15)
     axes.grid(linewidth=0.3)
     axes.set_xlabel(f'final memory, {measured.reference} = 1')
@@ -340,12 +353,8 @@ def growth(measured: Measured) -> Figure | None:
         drawn |= _curves(axes, measured, partial(measured.by_triangles, metric))
         axes.set_xscale('log')
         axes.set_yscale('log')
-        axes.xaxis.set_major_formatter(FuncFormatter(si))
-        axes.xaxis.set_minor_formatter(NullFormatter())
-        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f'{value:g}'))
-        axes.yaxis.set_minor_formatter(NullFormatter())
-        if metric is not INITIALIZE:  # which grows by many powers of ten
-            axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        label_powers(axes.xaxis, si)
+        label_powers(axes.yaxis, plain, by_125=metric is not INITIALIZE)
         axes.set_xlabel('triangles')
         axes.set_title(f'{metric.name}, {metric.unit}', fontsize=8, style='italic')
     if not drawn:
@@ -384,11 +393,8 @@ def break_even(measured: Measured) -> Figure | None:
         axes.set_title(scene, loc='left', fontsize=8, style='italic', pad=2)
         axes.grid(linewidth=0.3)
         axes.xaxis.set_major_locator(LogLocator(numticks=5))
-        axes.xaxis.set_major_formatter(FuncFormatter(si))
-        axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f'{value:g}'))
-        for axis in (axes.xaxis, axes.yaxis):
-            axis.set_minor_formatter(NullFormatter())
+        label_powers(axes.xaxis, si)
+        label_powers(axes.yaxis, plain, by_125=True)
     for axes in all_axes[len(scenes):]:
         axes.set_axis_off()
     _legend(figure)
