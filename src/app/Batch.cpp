@@ -67,7 +67,8 @@ class Rendering {
     void renderPasses() {
         if (settings_.view) {
             renderPasses(FalseColour(*settings_.view, run_.scene(), run_.kernel(), camera_,
-                                     settings_.width, settings_.height));
+                                     settings_.width, settings_.height,
+                                     boundsOf(run_.scene()).size().length()));
             return;
         }
         const PathTracer pathTracer(run_.scene(), run_.kernel(), camera_, settings_.width,

@@ -53,28 +53,11 @@ std::string encodeExr(const Film& film) {
     return stream.str();
 }
 
-/// IEC 61966-2-1, from [0, 1] to 0…255.
-png_byte encodeSrgb(double linear) {
-    const double value = std::clamp(linear, 0.0, 1.0);
-    const double encoded =
-        value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
-    return static_cast<png_byte>(std::lround(255 * encoded));
-}
-
-std::string encodePng(const Film& film) {
-    std::vector<png_byte> pixels;
-    for (int y = 0; y < film.height(); ++y) {
-        for (int x = 0; x < film.width(); ++x) {
-            const V3d mean = film.mean(x, y);
-            for (const double value : {mean.x, mean.y, mean.z})
-                pixels.push_back(encodeSrgb(value));
-        }
-    }
-
+std::string encodePng(int width, int height, std::span<const std::uint8_t> pixels) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
-    image.width = static_cast<png_uint_32>(film.width());
-    image.height = static_cast<png_uint_32>(film.height());
+    image.width = static_cast<png_uint_32>(width);
+    image.height = static_cast<png_uint_32>(height);
     image.format = PNG_FORMAT_RGB;
     png_alloc_size_t bytes = 0;
     std::string content;
@@ -88,10 +71,34 @@ std::string encodePng(const Film& film) {
     return content;
 }
 
+std::string encodePng(const Film& film) {
+    std::vector<std::uint8_t> pixels;
+    for (int y = 0; y < film.height(); ++y) {
+        for (int x = 0; x < film.width(); ++x) {
+            const V3d mean = film.mean(x, y);
+            for (const double value : {mean.x, mean.y, mean.z})
+                pixels.push_back(encodeSrgb(value));
+        }
+    }
+    return encodePng(film.width(), film.height(), pixels);
+}
+
 }  // namespace
 
 std::filesystem::path withEnding(const std::filesystem::path& base, const char* ending) {
     return base.string() + ending;
+}
+
+std::uint8_t encodeSrgb(double linear) {
+    const double value = std::clamp(linear, 0.0, 1.0);
+    const double encoded =
+        value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(std::lround(255 * encoded));
+}
+
+void writePng(const std::filesystem::path& path, int width, int height,
+              std::span<const std::uint8_t> pixels) {
+    writeFileAtomically(path, encodePng(width, height, pixels));
 }
 
 void writeImages(const std::filesystem::path& base, const Film& film) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "render/FalseColour.h"
 
-#include <algorithm>
-#include <array>
+#include "film/ColourMap.h"
+
+#include <chrono>
 #include <cmath>
 
 namespace bwfirt {
@@ -11,49 +12,16 @@ namespace {
 
 constexpr double MOST_QUERIES = 32;
 
-/// The length of the diagonal of the box around all finite triangles.
-double diagonal(const Scene& scene) {
-    V3d low(0), high(0);
-    bool isFirst = true;
-    for (const Triangle& triangle : scene.triangles) {
-        if (!isFinite(triangle))
-            continue;
-        for (const V3f& vertex : triangle.vertices) {
-            if (isFirst)
-                low = high = V3d(vertex);
-            isFirst = false;
-            for (int axis = 0; axis < 3; ++axis) {
-                low[axis] = std::min<double>(low[axis], vertex[axis]);
-                high[axis] = std::max<double>(high[axis], vertex[axis]);
-            }
-        }
-    }
-    return std::sqrt((high - low).dot(high - low));
-}
-
-/// The colour map viridis, in nine steps of linear RGB: it rises evenly in lightness, so that it
-/// survives grey printing and colour blindness.
-V3d viridis(double value) {
-    static const std::array<V3d, 9> STEPS = {
-        V3d(0.058, 0.000, 0.089), V3d(0.063, 0.025, 0.188), V3d(0.045, 0.084, 0.254),
-        V3d(0.025, 0.156, 0.270), V3d(0.014, 0.279, 0.262), V3d(0.019, 0.428, 0.213),
-        V3d(0.111, 0.584, 0.126), V3d(0.402, 0.706, 0.034), V3d(0.984, 0.799, 0.018)};
-    const double position = std::clamp(value, 0.0, 1.0) * (STEPS.size() - 1);
-    const std::size_t step = std::min(static_cast<std::size_t>(position), STEPS.size() - 2);
-    const double fraction = position - static_cast<double>(step);
-    return (1 - fraction) * STEPS[step] + fraction * STEPS[step + 1];
-}
-
 }  // namespace
 
 FalseColour::FalseColour(View view, const Scene& scene, const RTKernel& kernel,
-                         const Camera& camera, int width, int height)
+                         const Camera& camera, int width, int height, double sceneDiagonal)
     : view_(view),
       scene_(scene),
       kernel_(kernel),
       cameraRays_(camera, width, height),
       pathTracer_(scene, kernel, camera, width, height, 1),
-      sceneDiagonal_(diagonal(scene)) {}
+      sceneDiagonal_(sceneDiagonal) {}
 
 void FalseColour::trace(std::span<Sample> samples, RayCounts& counts) const {
     for (Sample& sample : samples) {
@@ -68,10 +36,21 @@ void FalseColour::trace(std::span<Sample> samples, RayCounts& counts) const {
         Random random(sample.seed);
         const auto [u, v] = random.uniformSquare();
         const Ray ray = cameraRays_.through(sample.x + u, sample.y + v);
+        if (view_ == View::TIME) {
+            sample.value = V3d(secondsOfIntersection(ray));
+            ++counts.intersect;
+            continue;
+        }
         const std::optional<Hit> hit = kernel_.kernelIntersectGeometry(ray);
         ++counts.intersect;
         sample.value = hit ? colourOf(ray, *hit) : V3d(0);
     }
+}
+
+double FalseColour::secondsOfIntersection(const Ray& ray) const {
+    const auto start = std::chrono::steady_clock::now();
+    kernel_.kernelIntersectGeometry(ray);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 V3d FalseColour::colourOf(const Ray& ray, const Hit& hit) const {
@@ -82,8 +61,11 @@ V3d FalseColour::colourOf(const Ray& ray, const Hit& hit) const {
         const double red = random.uniform(), green = random.uniform(), blue = random.uniform();
         return {red, green, blue};
     }
-    const V3d normal = unitNormal(scene_.triangles[hit.triangle]);
-    return (flippedAgainst(V3d(ray.direction), normal) + V3d(1)) / 2;
+    const V3d direction(ray.direction);
+    const V3d normal = flippedAgainst(direction, unitNormal(scene_.triangles[hit.triangle]));
+    if (view_ == View::EVEN_LIGHT)
+        return V3d(scene_.reflectance * (1 - normal.dot(direction)) / 2);
+    return (normal + V3d(1)) / 2;
 }
 
 }  // namespace bwfirt

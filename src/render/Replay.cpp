@@ -13,7 +13,6 @@ namespace bwfirt {
 namespace {
 
 constexpr int MEASUREMENTS = 3;
-constexpr double TIE_DISTANCE = 1e-5;
 
 /// Questions that a thread takes at a time: enough of them to outweigh the taking.
 constexpr std::size_t CHUNK = 4096;
@@ -155,26 +154,6 @@ std::unique_ptr<Asker> makeAsker(const RTKernel& kernel, const Questions& questi
 
 }  // namespace
 
-std::optional<Difference> differenceOf(const RayRecord& record, const std::optional<Hit>& hit) {
-    const std::optional<Hit> recorded = record.hit();
-    if (!recorded || !hit) {
-        if (recorded)
-            return Difference::MISSED;
-        return hit ? std::optional(Difference::GHOST) : std::nullopt;
-    }
-    if (recorded->triangle == hit->triangle)
-        return std::nullopt;
-    const double a = recorded->distance, b = hit->distance;
-    return std::abs(a - b) <= TIE_DISTANCE * std::max(a, b) ? Difference::TIE
-                                                            : Difference::WRONG_TRIANGLE;
-}
-
-std::optional<Difference> differenceOf(const RayRecord& record, bool isVisible) {
-    if (isVisible == (record.answer != 0))
-        return std::nullopt;
-    return isVisible ? Difference::FALSE_VISIBLE : Difference::FALSE_OCCLUDED;
-}
-
 ReplayAnswers Replay::compareAnswers() const {
     const Questions questions(stream_.records);
     const std::span rays(questions.rays);
@@ -205,7 +184,7 @@ ReplayAnswers Replay::compareAnswers() const {
         std::optional<Difference> difference;
         if (record.question == RayRecord::INTERSECT) {
             const std::optional<Hit>& hit = hits[ray];
-            difference = differenceOf(record, hit);
+            difference = differenceOf(record.hit(), hit);
             if (hit && record.hit() && hit->triangle == record.triangle) {
                 const double recorded = record.distance;
                 answers.maxRelativeDistanceError =
@@ -213,7 +192,7 @@ ReplayAnswers Replay::compareAnswers() const {
                              std::abs(hit->distance - recorded) / recorded);
             }
         } else {
-            difference = differenceOf(record, visible[segment]);
+            difference = differenceOf(record.answer != 0, visible[segment]);
         }
         if (!difference)
             continue;

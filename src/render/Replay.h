@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "render/Difference.h"
 #include "render/RayStream.h"
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -15,18 +15,6 @@ struct Rate {
     double perSecond = 0;
     std::vector<double> measurements;  ///< all of them, in the order in which they were made
 };
-
-/// In what way an answer differs from the recorded one.
-enum class Difference {
-    MISSED,          ///< h: recorded hit, kernel none
-    GHOST,           ///< h: recorded none, kernel hit
-    WRONG_TRIANGLE,  ///< h: another triangle at another distance
-    TIE,             ///< h: another triangle at the same distance, relative 1e-5; no error
-    FALSE_VISIBLE,   ///< V: recorded hidden
-    FALSE_OCCLUDED,  ///< V: recorded visible
-};
-constexpr std::array<const char*, 6> DIFFERENCE_NAMES = {
-    "missed", "ghost", "wrong_triangle", "tie", "false_visible", "false_occluded"};
 
 struct ReplayAnswers {
     static constexpr std::size_t EXAMPLES = 3;
@@ -92,9 +80,5 @@ class Replay {
     int inFlight_;
     double secondsPerMeasurement_;
 };
-
-/// In what way the kernel's answer to this question differs; nothing where it does not.
-std::optional<Difference> differenceOf(const RayRecord& record, const std::optional<Hit>& hit);
-std::optional<Difference> differenceOf(const RayRecord& record, bool isVisible);
 
 }  // namespace bwfirt

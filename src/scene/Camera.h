@@ -24,7 +24,10 @@ struct Camera {
 /// @throws std::runtime_error "<file>:<line>: <key>: <what was expected>"
 Camera readCamera(const std::filesystem::path& path);
 
-/// Read again, the file gives the same camera to the bit.
+/// A camera file. Read again it gives the same camera to the bit. The lines of the comment come
+/// first.
+std::string cameraText(const Camera& camera, const std::string& comment = "");
+
 void writeCamera(const std::filesystem::path& path, const Camera& camera);
 
 /// The reference as a line of a camera file, with a comment behind it.

@@ -146,8 +146,8 @@ Camera readCamera(const std::filesystem::path& path) {
     return camera;
 }
 
-void writeCamera(const std::filesystem::path& path, const Camera& camera) {
-    std::string text = "type pinhole\n";
+std::string cameraText(const Camera& camera, const std::string& comment) {
+    std::string text = asComment(comment) + "type pinhole\n";
     text += "position " + format(camera.position) + "\n";
     text += "direction " + format(camera.direction) + "\n";
     text += "up " + format(camera.up) + "\n";
@@ -156,7 +156,11 @@ void writeCamera(const std::filesystem::path& path, const Camera& camera) {
     text += "sensorResponse " + formatNumber(camera.sensorResponse) + "\n";
     if (camera.referenceAverageIntensity)
         text += "referenceAverageIntensity (" + format(*camera.referenceAverageIntensity) + ")\n";
-    writeFileAtomically(path, text);
+    return text;
+}
+
+void writeCamera(const std::filesystem::path& path, const Camera& camera) {
+    writeFileAtomically(path, cameraText(camera));
 }
 
 std::string referenceLine(const V3d& averageIntensity, const std::string& comment) {

@@ -3,6 +3,8 @@
 
 #include "scene/Triangle.h"
 
+#include <Imath/ImathBox.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -31,15 +33,22 @@ struct Scene {
 Scene readScene(const std::filesystem::path& path);
 
 /// Writes the scene file, not its triangles. Read again it gives the same scene to the bit. The
-/// lines of the comment, each ended by a line feed, come first.
+/// lines of the comment come first.
 void writeScene(const std::filesystem::path& path, const Scene& scene,
                 const std::string& comment = "");
+
+/// Replaces the lights in a scene file, or appends them; the rest stays as it is, comments too.
+/// @throws std::runtime_error where readScene finds the file's text wrong
+void writeLights(const std::filesystem::path& path, const std::vector<Light>& lights);
 
 /// Reads `*.ra2`: little endian float32, nine per triangle, no header.
 /// @throws std::runtime_error where the size is not a multiple of 36 bytes or exceeds the memory
 std::vector<Triangle> readTriangles(const std::filesystem::path& path);
 
 void writeTriangles(const std::filesystem::path& path, const std::vector<Triangle>& triangles);
+
+/// The box around all finite triangles; the origin where there are none.
+Imath::Box3d boundsOf(const Scene& scene);
 
 /// One sentence for each property of the scene that makes its results doubtful.
 std::vector<std::string> sceneWarnings(const Scene& scene);

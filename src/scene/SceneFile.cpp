@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 namespace bwfirt {
@@ -106,6 +105,14 @@ std::string wordOf(const std::string& path) {
     return isWord ? path : '"' + path + '"';
 }
 
+std::string lightsText(const std::vector<Light>& lights) {
+    std::string text = "lights " + std::to_string(lights.size());
+    for (const Light& light : lights)
+        text += (lights.size() == 1 ? " " : "\n    ") + std::to_string(light.first) + " " +
+                std::to_string(light.last) + " " + formatNumber(light.exitance);
+    return text;
+}
+
 }  // namespace
 
 Scene readScene(const std::filesystem::path& path) {
@@ -145,18 +152,29 @@ Scene readScene(const std::filesystem::path& path) {
 }
 
 void writeScene(const std::filesystem::path& path, const Scene& scene, const std::string& comment) {
-    std::string text;
-    std::istringstream lines(comment);
-    for (std::string line; std::getline(lines, line);)
-        text += "# " + line + "\n";
-    text += "triangles " + wordOf(scene.trianglesPath) + "\n";
-    text += "lights " + std::to_string(scene.lights.size());
-    const bool one = scene.lights.size() == 1;
-    for (const Light& light : scene.lights)
-        text += (one ? " " : "\n    ") + std::to_string(light.first) + " " +
-                std::to_string(light.last) + " " + formatNumber(light.exitance);
-    text += "\nreflectance " + formatNumber(scene.reflectance) + "\n";
-    writeFileAtomically(path, text);
+    writeFileAtomically(path, asComment(comment) + "triangles " + wordOf(scene.trianglesPath) +
+                                  "\n" + lightsText(scene.lights) + "\nreflectance " +
+                                  formatNumber(scene.reflectance) + "\n");
+}
+
+void writeLights(const std::filesystem::path& path, const std::vector<Light>& lights) {
+    std::string content = readTextFile(path);
+    TextReader text(path);
+    std::size_t begin = content.size(), end = begin;
+    while (text.peek()) {
+        const Word key = text.take("", KEYS);
+        if (key.text != "lights") {
+            text.take(key.text, "its value");
+            continue;
+        }
+        readLightEntries(text, key.line);
+        begin = key.begin;
+        end = text.endOfLastWord();
+    }
+    std::string replacement = lightsText(lights);
+    if (begin == content.size())
+        replacement = (content.ends_with('\n') ? "" : "\n") + replacement + "\n";
+    writeFileAtomically(path, content.replace(begin, end - begin, replacement));
 }
 
 }  // namespace bwfirt

@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 namespace bwfirt {
@@ -37,12 +38,11 @@ TextReader::TextReader(std::filesystem::path path)
 
 Word TextReader::take(std::string_view key, std::string_view expected) {
     if (!next_)
-        fail(lineOfLastWord_, std::string(key) + ": expected " + std::string(expected) +
-                                  ", not the end of the file");
-    Word word = std::move(*next_);
-    lineOfLastWord_ = word.line;
+        fail(lastWord_.line, std::string(key) + ": expected " + std::string(expected) +
+                                 ", not the end of the file");
+    lastWord_ = std::move(*next_);
     advance();
-    return word;
+    return lastWord_;
 }
 
 double TextReader::takeNumber(std::string_view key, std::string_view expected) {
@@ -91,8 +91,17 @@ void TextReader::advance() {
         ++end;
     if (quoted && (end == text.size() || text[end] != '"'))
         fail(line_, "expected a closing '\"' on the same line");
+    const std::size_t wordBegin = position_;
     position_ = end + (quoted ? 1 : 0);
-    next_ = Word{std::string(text.substr(begin, end - begin)), line_};
+    next_ = Word{std::string(text.substr(begin, end - begin)), line_, wordBegin, position_};
+}
+
+std::string asComment(const std::string& text) {
+    std::istringstream lines(text);
+    std::string comment;
+    for (std::string line; std::getline(lines, line);)
+        comment += "# " + line + "\n";
+    return comment;
 }
 
 std::string printable(std::string_view text, std::size_t longest) {

@@ -13,6 +13,8 @@ namespace bwfirt {
 struct Word {
     std::string text;
     int line = 0;
+    std::size_t begin = 0;  ///< of its bytes in the file, quotes included
+    std::size_t end = 0;
 };
 
 /// Reads a text file word by word: words are separated by white space, '#' begins a comment that
@@ -30,6 +32,9 @@ class TextReader {
 
     /// Takes the next word. `key` and `expected` tell the user what is missing where there is none.
     Word take(std::string_view key, std::string_view expected);
+
+    /// Where the bytes of the word that was taken last end; 0 before the first.
+    std::size_t endOfLastWord() const { return lastWord_.end; }
 
     /// Takes a finite number.
     double takeNumber(std::string_view key, std::string_view expected);
@@ -51,9 +56,12 @@ class TextReader {
     std::string content_;
     std::size_t position_ = 0;
     int line_ = 1;
-    int lineOfLastWord_ = 1;
+    Word lastWord_{"", 1, 0, 0};
     std::optional<Word> next_;
 };
+
+/// The text as comment lines of a file.
+std::string asComment(const std::string& text);
 
 /// A text as it may stand in a message of one line, whatever bytes it holds: cut where it is longer
 /// than `longest`, '?' for every byte that is not printable ASCII.

@@ -231,7 +231,8 @@ TEST(FalseColour, ShowsNormalsTurnedToTheViewerAndDistances) {
                                  V3f(-half, half, -3));
     const auto kernel = kernelFor(scene);
     const auto centre = [&](View view, const Camera& camera) {
-        const FalseColour integrator(view, scene, *kernel, camera, 1, 1);
+        const FalseColour integrator(view, scene, *kernel, camera, 1, 1,
+                                     boundsOf(scene).size().length());
         Film film(1, 1);
         const RayCounts counts = Renderer(integrator, 1, 1).renderPass(film);
         EXPECT_EQ(counts.intersect, 1u);
