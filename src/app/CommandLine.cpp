@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "app/CommandLine.h"
 
+#include "app/viewer/Viewer.h"
 #include "kernel/KernelInfo.h"
 #include "report/BuildInfo.h"
 #include "report/SystemInfo.h"
@@ -114,9 +115,11 @@ std::optional<Settings> parseCommandLine(int argc, const char* const* argv, RTKe
                    "threads, default: all that this process may run on")
         ->check(CLI::Range(1, MOST_THREADS))
         ->type_name("N");
-    app.add_option("--passes", settings.passes, "samples per pixel, default 100")
-        ->check(CLI::Range(1, std::numeric_limits<int>::max()))
-        ->type_name("N");
+    CLI::Option* passes =
+        app.add_option("--passes", settings.passes,
+                       "samples per pixel, default 100; the viewer goes on for ever")
+            ->check(CLI::Range(1, std::numeric_limits<int>::max()))
+            ->type_name("N");
     app.add_option("--size", size, "image size in pixels, default 640x480")->type_name("WxH");
     app.add_option("--seed", seed, "seed of all random numbers, default 1")->type_name("N");
     app.add_option("--output", settings.output,
@@ -178,7 +181,7 @@ std::optional<Settings> parseCommandLine(int argc, const char* const* argv, RTKe
                    "sets an option of the kernel; may be repeated")
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
-    app.footer(kernelOptionsHelp(kernel));
+    app.footer(viewerHelp() + "\n" + kernelOptionsHelp(kernel));
 
     try {
         app.parse(argc, argv);
@@ -198,6 +201,14 @@ std::optional<Settings> parseCommandLine(int argc, const char* const* argv, RTKe
         settings.view = VIEWS.at(settings.viewName);
     if (settings.batch && settings.camera.empty() && settings.replay.empty())
         throw UsageError("--batch needs --camera FILE");
+    if (!settings.batch && settings.replay.empty()) {
+        for (const char* option :
+             {"--output", "--report", "--checkpoint", "--record", "--reference"})
+            if (app.count(option) > 0)
+                throw UsageError(std::string(option) + " needs --batch");
+        if (!*passes)
+            settings.passes = std::numeric_limits<int>::max();
+    }
     return settings;
 }
 

@@ -19,7 +19,7 @@ struct Settings {
     std::filesystem::path camera;  ///< empty: the viewer's default camera
     bool batch = false;
     int threads = 1;
-    int passes = 100;
+    int passes = 100;  ///< in the viewer, unless it is given, as many as there can be
     int width = 640;
     int height = 480;
     std::uint64_t seed = 1;

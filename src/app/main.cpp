@@ -2,6 +2,7 @@
 #include "app/Batch.h"
 #include "app/CommandLine.h"
 #include "app/ReplayRun.h"
+#include "app/viewer/Viewer.h"
 #include "kernel/KernelInfo.h"
 
 #include <iostream>
@@ -29,9 +30,10 @@ int main(int argc, char** argv) {
             runReplay(*settings, std::move(kernel));
             return DONE;
         }
-        if (!settings->batch)
-            throw UsageError("this build has no viewer; use --batch and --camera FILE");
-        runBatch(*settings, std::move(kernel));
+        if (settings->batch)
+            runBatch(*settings, std::move(kernel));
+        else
+            runViewer(*settings, std::move(kernel));
         return DONE;
     } catch (const UsageError& error) {
         return complain(error.what(), WRONG_USAGE);

@@ -9,6 +9,7 @@ struct BuildInfo {
     static const char* const COMMIT;    ///< of git, with "-dirty" where files differed from it
     static const char* const COMPILER;  ///< name and version
     static const char* const FLAGS;     ///< that everything but the kernel was compiled with
+    static const bool DVORAK;           ///< the viewer's keys are those of a Dvorak keyboard
 };
 
 }  // namespace bwfirt

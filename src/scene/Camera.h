@@ -18,6 +18,8 @@ struct Camera {
     double filmSizeY = 1;       ///< film height, in the unit of depth
     double sensorResponse = 1;  ///< factor on the radiance
     std::optional<V3d> referenceAverageIntensity;
+
+    bool operator==(const Camera&) const = default;
 };
 
 /// Reads a camera file.
@@ -47,6 +49,10 @@ class CameraRays {
         const V3d direction = toUpperLeft_ + x * alongRow_ + y * alongColumn_;
         return {origin_, V3f(direction * (1 / std::sqrt(direction.dot(direction))))};
     }
+
+    /// Where through() would have to go to meet a point, in homogeneous coordinates: the image
+    /// point is (x / z, y / z) for z > 0, and the point is behind the camera for z < 0.
+    V3d project(const V3d& point) const;
 
   private:
     V3f origin_;

@@ -17,6 +17,8 @@ struct Light {
     std::uint32_t first = 0;
     std::uint32_t last = 0;  ///< inclusive
     double exitance = 0;     ///< radiant exitance, not negative
+
+    bool operator==(const Light&) const = default;
 };
 
 /// Every surface is Lambertian on both sides with the same reflectance.
@@ -36,6 +38,9 @@ Scene readScene(const std::filesystem::path& path);
 /// lines of the comment come first.
 void writeScene(const std::filesystem::path& path, const Scene& scene,
                 const std::string& comment = "");
+
+/// The lights as they stand in a scene file.
+std::string lightsText(const std::vector<Light>& lights);
 
 /// Replaces the lights in a scene file, or appends them; the rest stays as it is, comments too.
 /// @throws std::runtime_error where readScene finds the file's text wrong

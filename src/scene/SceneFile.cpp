@@ -105,14 +105,6 @@ std::string wordOf(const std::string& path) {
     return isWord ? path : '"' + path + '"';
 }
 
-std::string lightsText(const std::vector<Light>& lights) {
-    std::string text = "lights " + std::to_string(lights.size());
-    for (const Light& light : lights)
-        text += (lights.size() == 1 ? " " : "\n    ") + std::to_string(light.first) + " " +
-                std::to_string(light.last) + " " + formatNumber(light.exitance);
-    return text;
-}
-
 }  // namespace
 
 Scene readScene(const std::filesystem::path& path) {
@@ -149,6 +141,14 @@ Scene readScene(const std::filesystem::path& path) {
         scene.lights.push_back(checkedLight(text, entry, scene.triangles.size()));
     checkLightsTogether(text, entries, scene);
     return scene;
+}
+
+std::string lightsText(const std::vector<Light>& lights) {
+    std::string text = "lights " + std::to_string(lights.size());
+    for (const Light& light : lights)
+        text += (lights.size() == 1 ? " " : "\n    ") + std::to_string(light.first) + " " +
+                std::to_string(light.last) + " " + formatNumber(light.exitance);
+    return text;
 }
 
 void writeScene(const std::filesystem::path& path, const Scene& scene, const std::string& comment) {
