@@ -21,9 +21,16 @@ V3d rightOf(const Camera& camera) {
     return camera.direction.normalized().cross(camera.up.normalized()).normalized();
 }
 
+/// The sine of the angle by which the horizon is tilted where the sky is in this direction.
+double rollOf(const Camera& camera, const V3d& sky) {
+    return std::abs(rightOf(camera).dot(sky));
+}
+
 /// The camera's up may lean towards its direction, or away. The axis that it is nearest to is the
-/// better guess of where the sky is, provided that the horizon stays level.
+/// better guess of where the sky is, as long as the horizon is not far from level.
 V3d awayFromGround(const Camera& camera) {
+    constexpr double LARGEST_ROLL = 0.1;
+    constexpr double SMALLEST_ANGLE = 0.01;  // between the sky and where the camera looks
     const V3d up = camera.up.normalized();
     V3d nearest(0);
     for (int axis = 0; axis < 3; ++axis) {
@@ -32,11 +39,9 @@ V3d awayFromGround(const Camera& camera) {
         if (candidate.dot(up) > nearest.dot(up))
             nearest = candidate;
     }
-    constexpr double LARGEST_ROLL = 1e-3;
-    const V3d right = rightOf(camera);
-    const bool isLevel = std::abs(nearest.dot(right)) < LARGEST_ROLL;
-    return isLevel && camera.direction.normalized().cross(nearest).length() > LARGEST_ROLL ? nearest
-                                                                                           : up;
+    const bool isSky = rollOf(camera, nearest) < LARGEST_ROLL &&
+                       camera.direction.normalized().cross(nearest).length() > SMALLEST_ANGLE;
+    return isSky ? nearest : up;
 }
 
 }  // namespace
@@ -104,9 +109,13 @@ void Flight::look(double right, double down) {
     const auto rotate = [](const V3d& vector, const V3d& axis, double angle) {
         return Imath::Quatd().setAxisAngle(axis, angle).rotateVector(vector);
     };
-    const V3d tilted = rotate(camera_.direction, rightOf(camera_), turned - elevation);
-    camera_.direction = rotate(tilted, up_, -right);
-    camera_.up = up_;
+    const V3d axis = rightOf(camera_);
+    const auto turn = [&](const V3d& vector) {
+        return rotate(rotate(vector, axis, turned - elevation), up_, -right);
+    };
+    constexpr double LEVEL = 1e-6;
+    camera_.up = rollOf(camera_, up_) < LEVEL ? up_ : turn(camera_.up);
+    camera_.direction = turn(camera_.direction);
     moved();
 }
 

@@ -36,8 +36,8 @@ class Flight {
     /// looks, up is away from the ground.
     void advance(double seconds);
 
-    /// Turns by these angles in radians, to the right and down, with the horizon kept level and
-    /// never over the vertical.
+    /// Turns by these angles in radians, to the right and down, never over the vertical. A
+    /// level horizon stays level.
     void look(double right, double down);
 
     /// The camera and the speed of the start.

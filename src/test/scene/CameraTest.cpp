@@ -21,13 +21,6 @@ const std::string CONFERENCE =
     "sensorResponse 1\n"
     "referenceAverageIntensity (0.857282 0.857282 0.857282)\n";
 
-bool operator==(const Camera& a, const Camera& b) {
-    return a.position == b.position && a.direction == b.direction && a.up == b.up &&
-           a.depth == b.depth && a.filmSizeY == b.filmSizeY &&
-           a.sensorResponse == b.sensorResponse &&
-           a.referenceAverageIntensity == b.referenceAverageIntensity;
-}
-
 TEST(CameraFile, TheCameraOfThePaperIsRead) {
     const test::TemporaryFolder folder;
     const Camera camera = readCamera(folder.write("a.camera", CONFERENCE));
@@ -80,8 +73,16 @@ TEST(CameraFile, AWrittenCameraIsTheSameToTheBitWhenReadAgain) {
         if (i % 2 == 0)
             camera.referenceAverageIntensity = vector();
         writeCamera(folder / "a.camera", camera);
-        EXPECT_TRUE(readCamera(folder / "a.camera") == camera);
+        EXPECT_EQ(readCamera(folder / "a.camera"), camera);
     }
+}
+
+TEST(CameraFile, ACommentComesFirst) {
+    const test::TemporaryFolder folder;
+    const Camera camera;
+    const std::string text = cameraText(camera, "from here\nand there");
+    EXPECT_TRUE(text.starts_with("# from here\n# and there\ntype pinhole\n")) << text;
+    EXPECT_EQ(readCamera(folder.write("a.camera", text)), camera);
 }
 
 TEST(CameraFile, ErrorsNameFileLineAndKey) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/Scene.h"
 
+#include "scene/FileIO.h"
 #include "scene/TextReader.h"
 #include "test/Shapes.h"
 #include "test/TemporaryFolder.h"
@@ -165,6 +166,34 @@ TEST(SceneWarnings, TellOfNonFiniteTrianglesAndLargeCoordinates) {
     EXPECT_TRUE(sceneWarnings(scene)[0].starts_with("1 triangles have an infinite or NaN"));
     scene.triangles[4].vertices[0].y = -129;
     EXPECT_EQ(sceneWarnings(scene).size(), 2u);
+}
+
+/// The text of the scene file after these lights have replaced its own.
+std::string replaced(const test::TemporaryFolder& folder, const std::string& text,
+                     const std::vector<Light>& lights) {
+    writeLights(folder.write("box.scene", text), lights);
+    return readTextFile(folder / "box.scene");
+}
+
+TEST_F(SceneFile, ReplacedLightsLeaveTheRestOfTheFileAsItIs) {
+    EXPECT_EQ(replaced(folder,
+                       "# a box\ntriangles box.ra2 # its walls\nlights 2 0 1 5\n  4 4 6  # two\n"
+                       "reflectance .5",
+                       {{7, 8, 0.1}}),
+              "# a box\ntriangles box.ra2 # its walls\nlights 1 7 8 0.1  # two\nreflectance .5");
+    EXPECT_EQ(replaced(folder, "lights 1 0 0 5 triangles box.ra2", {}),
+              "lights 0 triangles box.ra2");
+    EXPECT_EQ(
+        replaced(folder, "triangles lights reflectance .5\nlights 0\n", {{1, 2, 3}, {5, 5, 4}}),
+        "triangles lights reflectance .5\nlights 2\n    1 2 3\n    5 5 4\n")
+        << "a file named lights";
+}
+
+TEST_F(SceneFile, LightsAreAppendedWhereThereAreNone) {
+    EXPECT_EQ(replaced(folder, "triangles box.ra2", {{7, 8, 1}}),
+              "triangles box.ra2\nlights 1 7 8 1\n");
+    EXPECT_EQ(replaced(folder, "triangles box.ra2\n", {{7, 8, 1}}),
+              "triangles box.ra2\nlights 1 7 8 1\n");
 }
 
 }  // namespace
