@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <numbers>
+#include <thread>
 
 namespace bwfirt {
 namespace {
@@ -249,6 +251,44 @@ TEST(FalseColour, ShowsNormalsTurnedToTheViewerAndDistances) {
     EXPECT_NE(centre(View::TRIANGLES, front), V3d(0));
     front.direction = V3d(0, 0, 1);
     EXPECT_EQ(centre(View::NORMALS, front), V3d(0)) << "black where there is nothing";
+}
+
+TEST(FalseColour, EvenLightIsTheReflectanceWhereASurfaceIsSeenFromTheFront) {
+    Scene scene;
+    scene.triangles = test::quad(V3f(-9, -9, -3), V3f(9, -9, -3), V3f(9, 9, -3), V3f(-9, 9, -3));
+    const auto kernel = kernelFor(scene);
+    const auto centre = [&](const V3d& direction) {
+        Camera camera;
+        camera.direction = direction;
+        camera.filmSizeY = 0.001;
+        Film film(1, 1);
+        Renderer(FalseColour(View::EVEN_LIGHT, scene, *kernel, camera, 1, 1, 1), 1, 1)
+            .renderPass(film);
+        return film.mean(0, 0).x;
+    };
+    EXPECT_NEAR(centre(V3d(0, 0, -1)), 0.7, 1e-6);
+    EXPECT_NEAR(centre(V3d(1, 0, -1)), 0.7 * (1 + std::sqrt(0.5)) / 2, 1e-3);
+    EXPECT_EQ(centre(V3d(0, 0, 1)), 0);
+}
+
+/// Takes its time.
+class Slow : public RTKernel {
+  public:
+    void kernelInitialize(std::span<const Triangle>) override {}
+    std::optional<Hit> kernelIntersectGeometry(const Ray&) const override {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        return std::nullopt;
+    }
+};
+
+TEST(FalseColour, TimeIsTheSecondsOfH) {
+    const Scene scene;
+    Film film(2, 2);
+    const RayCounts counts =
+        Renderer(FalseColour(View::TIME, scene, Slow(), {}, 2, 2, 1), 1, 1).renderPass(film);
+    EXPECT_EQ(counts.intersect, 4u);
+    EXPECT_GE(film.averageIntensity().x, 0.002);
+    EXPECT_LT(film.averageIntensity().x, 60);
 }
 
 }  // namespace
