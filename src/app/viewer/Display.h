@@ -11,6 +11,8 @@ namespace bwfirt {
 /// How bright a picture is shown: a factor of 2^stops.
 struct Exposure {
     double stops = 0;
+
+    bool operator==(const Exposure&) const = default;
 };
 
 /// The picture in 8-bit sRGB, three bytes a pixel. View::TIME is shown in viridis from 0 to

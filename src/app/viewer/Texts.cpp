@@ -112,9 +112,10 @@ Lines pickLines(const std::optional<Pick>& pick) {
 Lines lightLines(const LightEditor& editor) {
     constexpr std::size_t MOST = 6;
     const std::vector<Light>& lights = editor.lights();
-    Lines lines = {"light mode: a click adds or removes a triangle",
-                   format("%zu lights%s, a new one gets %g", lights.size(),
-                          editor.isChanged() ? ", not saved (Ctrl+S)" : "", editor.exitance())};
+    Lines lines = {
+        "light mode: a click adds or removes a triangle",
+        format("%zu light%s%s, a new one gets %g", lights.size(), lights.size() == 1 ? "" : "s",
+               editor.isChanged() ? ", not saved (Ctrl+S)" : "", editor.exitance())};
     for (std::size_t i = 0; i < std::min(MOST, lights.size()); ++i)
         lines.push_back(
             format("%8u %8u %10g", lights[i].first, lights[i].last, lights[i].exitance));
