@@ -4,7 +4,8 @@
 #include "math/Sampling.h"
 #include "scene/Scene.h"
 
-#include <algorithm>
+#include <cstddef>
+#include <vector>
 
 namespace bwfirt {
 
@@ -29,9 +30,11 @@ class LightSampler {
     /// Must not be called where the total power is 0.
     LightSample sample(Random& random) const {
         const double target = random.uniform() * totalPower();
-        const auto found = std::upper_bound(
-            emitters_.begin(), emitters_.end() - 1, target,
-            [](double power, const Emitter& emitter) { return power < emitter.cumulativePower; });
+        // The first emitter beyond the target. Which half it is in cannot be predicted, hence a
+        // factor instead of a branch.
+        const Emitter* found = emitters_.data();
+        for (std::size_t count = emitters_.size(); count > 1; count -= count / 2)
+            found += (found[count / 2 - 1].cumulativePower <= target) * (count / 2);
         return {sampleTriangle(found->a, found->b, found->c, random), found->normal,
                 found->radiance, found->pdfArea};
     }
