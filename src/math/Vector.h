@@ -18,10 +18,4 @@ bool isFinite(const Imath::Vec3<T>& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// The vector or its negative, whichever points against the direction. Which one it is cannot be
-/// predicted in light transport, hence a factor instead of a branch.
-inline V3d flippedAgainst(const V3d& direction, const V3d& vector) {
-    return std::copysign(1.0, -vector.dot(direction)) * vector;
-}
-
 }  // namespace bwfirt

@@ -28,46 +28,49 @@ void PathTracer::trace(std::span<Sample> samples, RayCounts& counts) const {
 }
 
 PathTracer::Path PathTracer::begin(Sample& sample) const {
-    Path path{&sample, Random(sample.seed), {}, 0, 0, {}, {}, {}, 0};
+    Path path{&sample, Random(sample.seed), {}, 0, 0, true, {}, {}, 0};
     const auto [u, v] = path.random.uniformSquare();
     path.ray = cameraRays_.through(sample.x + u, sample.y + v);
     return path;
 }
 
-bool PathTracer::arrive(Path& path, const std::optional<Hit>& hit) const {
+void PathTracer::arrive(Path& path, const std::optional<Hit>& hit) const {
+    path.contribution = 0;
+    path.goesOn = false;
     if (!hit)
-        return false;
+        return;
     const V3d direction(path.ray.direction);
-    const V3d normal = unitNormal(scene_.triangles[hit->triangle]);
-    path.normal = flippedAgainst(direction, normal);
+    const V3d normal = unitNormalAgainst(direction, scene_.triangles[hit->triangle]);
     if (path.bounce == 0)
         path.radiance += lights_.radiance(hit->triangle);
 
     const V3d hitPoint = V3d(path.ray.origin) + static_cast<double>(hit->distance) * direction;
-    const V3d x = hitPoint + RTKernel::NORMAL_OFFSET * path.normal;
-    const LightSample light = lights_.sample(path.random);
-    const V3d lightNormal = flippedAgainst(light.point - x, light.normal);
-    const V3d y = light.point + RTKernel::NORMAL_OFFSET * lightNormal;
+    const V3d x = hitPoint + RTKernel::NORMAL_OFFSET * normal;
     path.x = V3f(x);
+    const LightSample light = lights_.sample(path.random);
+    scatter(path, normal);
+    connect(path, x, normal, light);
+}
+
+void PathTracer::scatter(Path& path, const V3d& normal) const {
+    path.goesOn = path.random.uniform() < scene_.reflectance;
+    if (path.goesOn)
+        path.ray = {path.x, V3f(sampleCosineHemisphere(normal, path.random))};
+}
+
+void PathTracer::connect(Path& path, const V3d& x, const V3d& normal,
+                         const LightSample& light) const {
+    const double side = std::copysign(1.0, -light.normal.dot(light.point - x));
+    const V3d y = light.point + side * RTKernel::NORMAL_OFFSET * light.normal;
     path.y = V3f(y);
 
     const V3d d = y - x;
-    const double cosX = path.normal.dot(d), cosY = -lightNormal.dot(d);  // times |d|
-    path.contribution = 0;
+    const double cosX = normal.dot(d), cosY = -side * light.normal.dot(d);  // times |d|
     if (cosX > 0 && cosY > 0) {
         const double distanceSquared = d.dot(d);
         path.contribution = brdf_ * light.radiance * cosX * cosY /
                             (distanceSquared * distanceSquared * light.pdfArea);
     }
-    return true;
-}
-
-bool PathTracer::scatter(Path& path) const {
-    if (!(path.random.uniform() < scene_.reflectance))
-        return false;
-    path.ray = {path.x, V3f(sampleCosineHemisphere(path.normal, path.random))};
-    ++path.bounce;
-    return true;
 }
 
 void PathTracer::end(const Path& path) const {
@@ -78,12 +81,11 @@ template <typename Intersect, typename IsVisible>
 void PathTracer::follow(Sample& sample, const Intersect& intersect,
                         const IsVisible& isVisible) const {
     Path path = begin(sample);
-    do {
-        if (!arrive(path, intersect(path)))
-            break;
+    for (; path.goesOn; ++path.bounce) {
+        arrive(path, intersect(path));
         if (path.contribution > 0 && isVisible(path))
             path.radiance += path.contribution;
-    } while (scatter(path));
+    }
     end(path);
 }
 
@@ -145,21 +147,14 @@ void PathTracer::traceInFlight(std::span<Sample> samples, RayCounts& counts) con
         kernel_.kernelIntersectMany({rays.data(), paths.size()}, {hits.data(), paths.size()});
         counts.intersect += paths.size();
 
-        std::size_t alive = 0;
         std::size_t connections = 0;
         for (std::size_t i = 0; i < paths.size(); ++i) {
-            if (!arrive(paths[i], hits[i])) {
-                end(paths[i]);
-                continue;
+            arrive(paths[i], hits[i]);
+            if (paths[i].contribution > 0) {
+                connected[connections] = i;
+                segments[connections++] = {paths[i].x, paths[i].y};
             }
-            paths[alive] = paths[i];
-            if (paths[alive].contribution > 0) {
-                connected[connections] = alive;
-                segments[connections++] = {paths[alive].x, paths[alive].y};
-            }
-            ++alive;
         }
-        paths.erase(paths.begin() + static_cast<std::ptrdiff_t>(alive), paths.end());
 
         kernel_.kernelVisibleMany({segments.data(), connections}, {visible.get(), connections});
         counts.visibility += connections;
@@ -170,10 +165,10 @@ void PathTracer::traceInFlight(std::span<Sample> samples, RayCounts& counts) con
         }
 
         std::erase_if(paths, [&](Path& path) {
-            if (scatter(path))
-                return false;
-            end(path);
-            return true;
+            ++path.bounce;
+            if (!path.goesOn)
+                end(path);
+            return !path.goesOn;
         });
     }
 }

@@ -52,19 +52,25 @@ class PathTracer : public Integrator {
         Ray ray;              ///< to be followed next
         int bounce;           ///< surfaces met so far
         double radiance;      ///< found so far
-        V3d normal;           ///< of the surface met last, on the side that the path came from
-        V3f x, y;             ///< the connection: from that surface to a light
+        bool goesOn;          ///< along the ray; false where it has left the scene or is absorbed
+        V3f x, y;             ///< the connection: from the surface met last to a light
         double contribution;  ///< of the connection where x sees y; 0 where V need not be asked
     };
 
     Path begin(Sample& sample) const;
 
-    /// The ray met a surface, or none. False where the path ends here; otherwise it is ready to be
-    /// connected to a light.
-    bool arrive(Path& path, const std::optional<Hit>& hit) const;
+    /// The ray met a surface, or none: makes the path ready for V and then for h.
+    ///
+    /// Where the path goes on is settled before V is asked, and before it is known whether V has to
+    /// be: nothing but the two points and the ray then waits in memory for the kernel's answer, and
+    /// a processor that guessed wrong whether V is asked has not lost the work on the direction.
+    void arrive(Path& path, const std::optional<Hit>& hit) const;
 
-    /// Chooses whether and where the path goes on. False where it is absorbed.
-    bool scatter(Path& path) const;
+    /// Chooses whether the path goes on from path.x, and where.
+    void scatter(Path& path, const V3d& normal) const;
+
+    /// Makes the light's point and the contribution of the connection with x.
+    void connect(Path& path, const V3d& x, const V3d& normal, const LightSample& light) const;
 
     void end(const Path& path) const;
 

@@ -26,6 +26,13 @@ inline V3d unitNormal(const Triangle& triangle) {
     return normal * (1 / std::sqrt(normal.dot(normal)));
 }
 
+/// The same normal or its negative, whichever points against the direction. The side is found from
+/// the normal before it has unit length, so that neither waits for the other.
+inline V3d unitNormalAgainst(const V3d& direction, const Triangle& triangle) {
+    const V3d normal = edgeCross(triangle);
+    return normal * std::copysign(1 / std::sqrt(normal.dot(normal)), -normal.dot(direction));
+}
+
 /// In squared scene units.
 inline double area(const Triangle& triangle) {
     const V3d normal = edgeCross(triangle);
