@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Runs test programs and the Python tests side by side; ends with the line 'N passed, N failed'.
 
-usage: run.py [--no-program-tests] [TEST_PROGRAM ...]
+usage: run.py [--python-tests PATTERN] [TEST_PROGRAM ...]
 """
 
 import argparse
@@ -20,9 +20,10 @@ PYTHON_TESTS = [HERE / 'program', HERE.parents[1] / 'scenes' / 'test',
                 HERE.parents[1] / 'bench' / 'test']
 
 
-def python_tests() -> list[Path]:
-    files = [file for folder in PYTHON_TESTS for file in sorted(folder.glob('test_*.py'))]
-    if not files:
+def python_tests(pattern: str) -> list[Path]:
+    """The test files whose names match; none for an empty pattern."""
+    files = [file for folder in PYTHON_TESTS if pattern for file in sorted(folder.glob(pattern))]
+    if pattern and not files:
         sys.exit('run.py: the Python tests are missing')
     return files
 
@@ -64,20 +65,23 @@ def run_pytest(file: Path, folder: Path) -> tuple[int, int, int]:
 def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument('programs', nargs='*', type=Path)
-    parser.add_argument('--no-program-tests', action='store_true')
+    parser.add_argument('--python-tests', default='test_*.py', metavar='PATTERN')
     arguments = parser.parse_args()
-    if arguments.no_program_tests and not arguments.programs:
+    files = python_tests(arguments.python_tests)
+    if not files and not arguments.programs:
         sys.exit('run.py: no kernel was built that could be tested')
-    if not arguments.no_program_tests and importlib.util.find_spec('pytest') is None:
+    if files and importlib.util.find_spec('pytest') is None:
         sys.exit('run.py: pytest is missing: install the Debian package python3-pytest')
 
     # Under a sanitizer malloc has to refuse too large a request, as it does elsewhere.
     #
     # clang's OpenMP library tells the thread sanitizer, through its tool Archer, how threads wait
     # for each other. It is not instrumented, so that its own memory would look like races.
+    #
+    # SDL's libraries keep memory that they do not give back.
+    os.environ['LSAN_OPTIONS'] = f'suppressions={HERE / "leaks-of-libraries"}:print_suppressions=0'
     os.environ['ASAN_OPTIONS'] = 'allocator_may_return_null=1'
     os.environ['TSAN_OPTIONS'] = 'allocator_may_return_null=1:ignore_noninstrumented_modules=1'
-    files = [] if arguments.no_program_tests else python_tests()
     with (tempfile.TemporaryDirectory() as scratch,
           ThreadPoolExecutor(os.cpu_count()) as side_by_side):
         folder = Path(scratch)
