@@ -2,7 +2,7 @@
 #include "app/viewer/LiveRenderer.h"
 
 #include "app/viewer/ReferenceKernel.h"
-#include "app/viewer/StartCamera.h"
+#include "app/viewer/start-camera/StartCamera.h"
 #include "kernel/KernelInfo.h"
 #include "render/Renderer.h"
 #include "scene/LightSampler.h"

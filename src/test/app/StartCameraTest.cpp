@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "app/viewer/StartCamera.h"
-#include "app/viewer/UpAxis.h"
+#include "app/viewer/start-camera/StartCamera.h"
+#include "app/viewer/start-camera/UpAxis.h"
 #include "test/Shapes.h"
 #include "test/TemporaryFolder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "app/viewer/ViewScore.h"
+#include "app/viewer/start-camera/ViewScore.h"
 
 #include <algorithm>
 

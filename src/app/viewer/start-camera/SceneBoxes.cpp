@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "app/viewer/SceneBoxes.h"
+#include "app/viewer/start-camera/SceneBoxes.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "app/viewer/StartCamera.h"
+#include "app/viewer/start-camera/StartCamera.h"
 
-#include "app/viewer/SceneBoxes.h"
-#include "app/viewer/UpAxis.h"
-#include "app/viewer/ViewScore.h"
+#include "app/viewer/start-camera/SceneBoxes.h"
+#include "app/viewer/start-camera/UpAxis.h"
+#include "app/viewer/start-camera/ViewScore.h"
 
 #include <algorithm>
 #include <array>
