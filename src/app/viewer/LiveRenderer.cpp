@@ -2,6 +2,7 @@
 #include "app/viewer/LiveRenderer.h"
 
 #include "app/viewer/ReferenceKernel.h"
+#include "app/viewer/start-camera/SensorResponse.h"
 #include "app/viewer/start-camera/StartCamera.h"
 #include "kernel/KernelInfo.h"
 #include "render/Renderer.h"
@@ -79,7 +80,11 @@ struct LiveRenderer::Shown {
 };
 
 LiveRenderer::LiveRenderer(const Settings& settings, std::unique_ptr<RTKernel> kernel)
-    : settings_(settings), kernel_(std::move(kernel)), thread_([this] { run(); }) {}
+    : settings_(settings), kernel_(std::move(kernel)) {
+    if (!settings.camera.empty())
+        startCamera_ = readCamera(settings.camera);
+    thread_ = std::thread([this] { run(); });
+}
 
 LiveRenderer::~LiveRenderer() {
     {
@@ -131,8 +136,10 @@ void LiveRenderer::run() {
         sceneDiagonal_ = boundsOf(scene_).size().length();
         stage_ = Stage::BUILDING;
         kernel_->kernelInitialize(scene_.triangles);
-        startCamera_ = settings_.camera.empty() ? bwfirt::startCamera(scene_, *kernel_)
-                                                : readCamera(settings_.camera);
+        if (settings_.camera.empty()) {
+            startCamera_ = bwfirt::startCamera(scene_, *kernel_);
+            startCamera_.sensorResponse = fittingSensorResponse(scene_, *kernel_, startCamera_);
+        }
         stage_ = Stage::RENDERING;
         {
             const std::lock_guard lock(mutex_);

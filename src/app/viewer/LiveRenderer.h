@@ -55,6 +55,7 @@ class LiveRenderer {
     /// is under way, and the drawing, a picture reacts within a tenth of a second.
     static constexpr double SECONDS_OF_FIRST_PASS = 0.03;
 
+    /// @throws std::runtime_error for a bad camera file; what is wrong with the scene comes later
     LiveRenderer(const Settings& settings, std::unique_ptr<RTKernel> kernel);
 
     /// Returns when the chunk of rays under way has been traced.
@@ -122,7 +123,7 @@ class LiveRenderer {
     std::shared_ptr<const Picture> picture_;
     std::exception_ptr failure_;
 
-    std::thread thread_;  ///< last, so that it finds all the others
+    std::thread thread_;
 };
 
 }  // namespace bwfirt
