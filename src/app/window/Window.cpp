@@ -64,14 +64,17 @@ Window::Libraries::~Libraries() {
 }
 
 Window::Window(const std::string& title, int width, int height) {
-    window_.reset(SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED,
-                                   width, height, SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI));
+    // Hidden at first: a renderer may need a window of another kind, which SDL then makes anew.
+    window_.reset(SDL_CreateWindow(
+        title.c_str(), SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, width, height,
+        SDL_WINDOW_HIDDEN | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI));
     require(window_ != nullptr);
     SDL_SetWindowMinimumSize(window_.get(), SMALLEST_SIDE, SMALLEST_SIDE);
     renderer_.reset(SDL_CreateRenderer(window_.get(), -1, 0));
     require(renderer_ != nullptr);
     require(SDL_SetRenderDrawBlendMode(renderer_.get(), SDL_BLENDMODE_BLEND) == 0);
     openFont();
+    SDL_ShowWindow(window_.get());
 }
 
 void Window::openFont() {
