@@ -5,11 +5,13 @@ The executables are those in build/ of the repository, or in the folder that the
 variable BWFIRT_BUILD names.
 """
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from box import write_box
+from display import Display, virtual_display
 from program import BUILD
 
 
@@ -27,3 +29,9 @@ def folder(tmp_path: Path) -> Path:
     """A folder with box.scene, box.ra2 and box.camera."""
     write_box(tmp_path)
     return tmp_path
+
+
+@pytest.fixture(scope='module')
+def display(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Display]:
+    with virtual_display(tmp_path_factory.mktemp('display')) as opened:
+        yield opened
