@@ -273,3 +273,8 @@ def batch_picture(program: Path, folder: Path, *options: str | Path, scene: str 
                 for word in (name, value)]
     render(program, folder, *defaults, *options, '--output', 'expected', scene=scene)
     return srgb(factor * read_exr(folder / 'expected.exr'))
+
+
+def is_smooth(image: np.ndarray) -> bool:
+    """Whether neighbours are alike, as they are not in a picture of some passes of light."""
+    return bool(np.median(np.abs(np.diff(image[..., 0].astype(int), axis=1))) <= 1)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from box import box_triangles, replace_line, write_triangles
-from display import HEIGHT, WIDTH, Display, Viewer, batch_picture, viewing, wait_for
+from display import HEIGHT, WIDTH, Display, Viewer, batch_picture, is_smooth, viewing, wait_for
 from image import read_png
 from program import REPOSITORY, run
 
@@ -18,10 +18,6 @@ BELOW_LEGEND = slice(80, HEIGHT)
 
 def is_grey(image: np.ndarray) -> bool:
     return int((image.max(axis=2).astype(int) - image.min(axis=2)).max()) <= 1
-
-
-def is_smooth(image: np.ndarray) -> bool:
-    return bool(np.median(np.abs(np.diff(image[..., 0].astype(int), axis=1))) <= 1)
 
 
 def brightness_is_below(viewer: Viewer, share: float, of: float) -> bool:
