@@ -23,8 +23,6 @@ volatile std::sig_atomic_t endAfterThisPass = 0;
 void catchSignals() {
     for (const int signal : {SIGINT, SIGTERM})
         std::signal(signal, [](int) { endAfterThisPass = 1; });
-    // A write beyond the file size limit is then an error like any other.
-    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void requireOutputsWritable(const Settings& settings) {

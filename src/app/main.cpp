@@ -5,6 +5,7 @@
 #include "app/viewer/Viewer.h"
 #include "kernel/KernelInfo.h"
 
+#include <csignal>
 #include <iostream>
 #include <new>
 
@@ -21,6 +22,8 @@ int complain(const std::string& message, int status) {
 
 int main(int argc, char** argv) {
     using namespace bwfirt;
+    // A write beyond the file size limit is then an error like any other.
+    std::signal(SIGXFSZ, SIG_IGN);
     try {
         std::unique_ptr<RTKernel> kernel = createKernel();
         const std::optional<Settings> settings = parseCommandLine(argc, argv, *kernel);

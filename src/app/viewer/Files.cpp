@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "app/viewer/Files.h"
 
+#include "scene/FileIO.h"
+
 namespace bwfirt {
 
 namespace fs = std::filesystem;
@@ -18,7 +20,7 @@ fs::path saveLights(const fs::path& scene, const std::vector<Light>& lights) {
     fs::path backup = target.string() + ".bak";
     for (int number = 2; fs::exists(backup); ++number)
         backup = target.string() + ".bak" + std::to_string(number);
-    fs::copy_file(target, backup);
+    writeFileAtomically(backup, readTextFile(target));
     writeLights(target, lights);
     return backup;
 }
