@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from box import box_triangles, replace_line, write_triangles
-from display import HEIGHT, WIDTH, Display, Viewer, batch_picture, is_smooth, viewing, wait_for
+from display import Display, wait_for
 from image import read_png
 from program import REPOSITORY, run
+from viewer import HEIGHT, WIDTH, Viewer, batch_picture, is_smooth, viewing
 
 BELOW_LEGEND = slice(80, HEIGHT)
 
@@ -168,8 +169,9 @@ def test_the_help_names_every_key(program: Path) -> None:
 
 
 def test_the_documentation_lists_the_keys_as_the_help_does(program: Path) -> None:
-    documented = (REPOSITORY / 'doc' / 'viewer').read_text().splitlines()
-    assert not [line for line in help_of(program) if line not in documented]
+    documentation = (REPOSITORY / 'doc' / 'viewer').read_text()
+    documented = [line.strip() for line in documentation.splitlines()]
+    assert not [line for line in help_of(program) if line.strip() not in documented]
 
 
 def test_space_pauses(display: Display, program: Path, folder: Path) -> None:

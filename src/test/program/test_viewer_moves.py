@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from display import HEIGHT, PASSES, WIDTH, Display, Viewer, batch_picture, viewing, wait_for
+from display import Display, wait_for
 from image import read_png
 from program import render
+from viewer import HEIGHT, PASSES, WIDTH, Viewer, batch_picture, viewing
 
 POSITION, DIRECTION = np.array([0, 0, 0.9]), np.array([0, 0, -2])
 RIGHT, UP, FORWARD = np.eye(3)[0], np.eye(3)[1], -np.eye(3)[2]
