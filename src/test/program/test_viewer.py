@@ -193,6 +193,13 @@ def test_space_pauses(display: Display, program: Path, folder: Path) -> None:
         wait_for(lambda: passes() > paused + 5, 'passes after the pause')
 
 
+def test_passes_end_when_all_that_were_asked_for_are_done(
+        display: Display, program: Path, folder: Path) -> None:
+    with viewing(display, program, folder, '--passes', '3') as viewer:
+        wait_for(lambda: viewer.saved_picture()[1] >= 3, 'three passes')
+        assert [viewer.saved_picture()[1] for _ in range(5)] == [3] * 5
+
+
 def test_p_writes_files_that_are_not_there_yet(
         display: Display, program: Path, folder: Path) -> None:
     (folder / 'box-2.png').write_text('mine')

@@ -159,15 +159,15 @@ def test_the_picture_is_there_again_after_the_window_was_an_icon(
 
 def test_nothing_is_rendered_while_the_window_is_an_icon(
         display: Display, program: Path, folder: Path) -> None:
-    """Its threads then use less than a tenth of the time that passes."""
+    """The program then uses a twentieth of a processor at most. Else it uses all that it gets."""
     def processor_seconds() -> float:
         fields = Path(f'/proc/{viewer.process.pid}/stat').read_text().rsplit(')', 1)[1].split()
         return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
 
     def rests() -> bool:
         before, start = processor_seconds(), time.monotonic()
-        time.sleep(1)
-        return processor_seconds() - before < 0.1 * (time.monotonic() - start)
+        time.sleep(2)
+        return processor_seconds() - before < (time.monotonic() - start) / 20
 
     with viewing(display, program, folder, '--passes', '1000000') as viewer:
         display.xdotool('windowminimize', viewer.window)

@@ -3,6 +3,7 @@
 
 import os
 import re
+import signal
 import subprocess
 import tempfile
 import time
@@ -39,7 +40,9 @@ class Viewer:
         self._output, self._errors = tempfile.TemporaryFile(), tempfile.TemporaryFile()
         self.process = subprocess.Popen(
             [str(word) for word in command], cwd=folder, env=display.environment,
-            stdin=subprocess.DEVNULL, stdout=self._output, stderr=self._errors)
+            stdin=subprocess.DEVNULL, stdout=self._output, stderr=self._errors,
+            # A shell lets what it runs in the background ignore this signal.
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
 
     def wait_for_window(self) -> None:
         """Until it has the focus, and something has been drawn."""
