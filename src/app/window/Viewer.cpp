@@ -13,7 +13,7 @@ namespace bwfirt {
 
 namespace {
 
-constexpr int MILLISECONDS_PER_TICK = 10;
+constexpr int MILLISECONDS_PER_TICK = 5;
 
 std::string titleOf(const Settings& settings) {
     return settings.scene.filename().string() + " - bwfirt-" + KernelInfo::NAME + " (h: help)";
@@ -54,14 +54,12 @@ class Viewer {
 
 void Viewer::run() {
     while (!isQuitting_) {
-        SDL_Event event;
-        if (SDL_WaitEventTimeout(&event, MILLISECONDS_PER_TICK) == 1) {
-            do
-                handle(event);
-            while (!isQuitting_ && SDL_PollEvent(&event) == 1);
-        }
-        if (!isQuitting_)
-            update();
+        update();
+        // SDL_WaitEventTimeout would sometimes send an event to a window that it then closes, over
+        // a second connection to the display: an error of X11 that ends the program.
+        SDL_Delay(MILLISECONDS_PER_TICK);
+        for (SDL_Event event; !isQuitting_ && SDL_PollEvent(&event) == 1;)
+            handle(event);
     }
     if (!renderer_.isReady())
         std::_Exit(EXIT_SUCCESS);  // a kernel cannot be stopped while it builds
