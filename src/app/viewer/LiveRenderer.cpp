@@ -213,7 +213,8 @@ void LiveRenderer::renderPasses(int divisor, Picture picture) {
         const RayCounts rays =
             Renderer(interruptible, settings_.seed, settings_.threads).renderPass(film);
         picture.secondsOfLastPass = std::chrono::duration<double>(Clock::now() - start).count();
-        pixelsPerSecond_ = film.width() * film.height() / picture.secondsOfLastPass;
+        if (picture.isFirst)
+            pixelsPerSecond_ = film.width() * film.height() / picture.secondsOfLastPass;
         seconds += picture.secondsOfLastPass;
         picture.rays += rays.intersect + rays.visibility;
         picture.raysPerSecond = static_cast<double>(picture.rays) / seconds;

@@ -53,7 +53,7 @@ class LiveRenderer {
 
     /// A pass of the first picture after a wish should take so long: with as long for a pass that
     /// is under way, and the drawing, a picture reacts within a tenth of a second.
-    static constexpr double SECONDS_OF_FIRST_PASS = 0.03;
+    static constexpr double SECONDS_OF_FIRST_PASS = 0.025;
 
     /// @throws std::runtime_error for a bad camera file; what is wrong with the scene comes later
     LiveRenderer(const Settings& settings, std::unique_ptr<RTKernel> kernel);
@@ -107,7 +107,7 @@ class LiveRenderer {
     Camera startCamera_;
     std::unique_ptr<RTKernel> reference_;  ///< built when it is first needed
     std::string problemOfReference_;
-    double pixelsPerSecond_ = 0;  ///< of the last pass
+    double pixelsPerSecond_ = 0;  ///< of the first pass of the last wish
     std::optional<View> viewOfLastWish_;
 
     std::atomic<Stage> stage_ = Stage::LOADING;
