@@ -16,12 +16,18 @@ fs::path newFile(const fs::path& scene, const std::string& ending) {
 }
 
 fs::path saveLights(const fs::path& scene, const std::vector<Light>& lights) {
+    const std::string old = readTextFile(scene);
     const fs::path target = fs::canonical(scene);  // a link stays one
     fs::path backup = target.string() + ".bak";
     for (int number = 2; fs::exists(backup); ++number)
         backup = target.string() + ".bak" + std::to_string(number);
-    writeFileAtomically(backup, readTextFile(target));
-    writeLights(target, lights);
+    writeFileAtomically(backup, old);
+    try {
+        writeLights(target, lights);
+    } catch (...) {
+        fs::remove(backup);
+        throw;
+    }
     return backup;
 }
 

@@ -12,7 +12,7 @@ std::filesystem::path newFile(const std::filesystem::path& scene, const std::str
 
 /// Writes the lights into the scene file, the old one having been copied to NAME.scene.bak, or
 /// .bak2 and so on where that exists. Returns the copy.
-/// @throws std::exception; the scene file is then as it was
+/// @throws std::exception; the scene file is then as it was, and there is no copy
 std::filesystem::path saveLights(const std::filesystem::path& scene,
                                  const std::vector<Light>& lights);
 

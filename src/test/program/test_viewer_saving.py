@@ -151,3 +151,21 @@ def test_a_scene_that_does_not_fit_on_the_disk_is_kept(
         lights_after(viewer, 'key', 'Up')
     assert (folder / 'box.scene').read_text() == old
     assert sorted(path.name for path in folder.iterdir()) == ['box.camera', 'box.ra2', 'box.scene']
+
+
+def test_a_scene_that_was_spoilt_or_removed_meanwhile_is_a_complaint(
+        display: Display, program: Path, folder: Path) -> None:
+    scene = folder / 'box.scene'
+    with viewing(display, program, folder,
+                 errors=rf'({program.name}: .*box.scene: ?.*\n){{2}}') as viewer:
+        lights_after(viewer, 'key', 'Up')
+        scene.unlink()
+        viewer.press('ctrl+s')
+        wait_for(lambda: viewer.errors().count('\n') == 1, 'a complaint')
+        scene.write_text('garbage')
+        viewer.press('ctrl+s')
+        wait_for(lambda: viewer.errors().count('\n') == 2, 'another complaint')
+        assert scene.read_text() == 'garbage' and not list(folder.glob('*.bak*'))
+        scene.write_text(COMMENTED)
+        assert saved(viewer) == ('box.scene', 'box.scene.bak')
+    assert lights_of(scene.read_text()) == [(12, 13, 12.5)]
