@@ -12,7 +12,7 @@ namespace bwfirt {
 
 namespace {
 
-constexpr double SECONDS_ACROSS_SCENE = 8;
+constexpr double SECONDS_ACROSS_SCENE = 12;
 constexpr double FAST_FACTOR = 4;
 constexpr int MOST_SPEED_STEPS = 80;  // a factor of a million
 constexpr double STEEPEST = 89 * std::numbers::pi / 180;

@@ -27,6 +27,25 @@ bool needsLights(const std::optional<View>& view) {
     return !view || *view == View::QUERIES || *view == View::ERRORS;
 }
 
+/// After a preview paths are not shown before there are enough of them to recognise something.
+constexpr int DIVISOR_AFTER_PREVIEW = 4;
+
+bool hasMoved(const std::optional<Wish>& before, const Wish& now) {
+    if (!before || before->camera == now.camera)
+        return false;
+    Wish there = *before;
+    there.camera = now.camera;
+    return there == now;
+}
+
+/// The average of a picture as it can be shown, from 0 to 1.
+float brightness(const std::vector<V3f>& pixels) {
+    double sum = 1e-6;  // never 0
+    for (const V3f& pixel : pixels)
+        sum += std::clamp(pixel.x, 0.F, 1.F);
+    return static_cast<float>(sum / static_cast<double>(pixels.size()));
+}
+
 /// The time that nineteen of twenty pixels take at most: the others may have been interrupted.
 double longestTime(const std::vector<V3f>& pixels) {
     std::vector<float> times;
@@ -178,29 +197,47 @@ void LiveRenderer::renderWish(const Wish& wish, Clock::time_point wished) {
         const double power = LightSampler(scene_).totalPower();
         hasPower_ = power > 0 && std::isfinite(power);
     }
-    if (pixelsPerSecond_ == 0 || wish.view != viewOfLastWish_)
-        pixelsPerSecond_ = FIRST_GUESS_OF_PIXELS_PER_SECOND;
-    viewOfLastWish_ = wish.view;
-
-    const double pixels = static_cast<double>(wish.width) * wish.height;
-    const int most = std::max(1, std::min(wish.width, wish.height));
-    const int first = std::clamp(
-        static_cast<int>(std::ceil(std::sqrt(pixels / (pixelsPerSecond_ * SECONDS_OF_FIRST_PASS)))),
-        1, most);
     Picture picture;
     picture.wish = wish;
     picture.wished = wished;
-    for (int divisor = first; divisor > 0; divisor /= 2) {
-        picture.isFirst = divisor == first;
+    picture.isFirst = true;
+    // The few paths that can be traced in time show hardly anything, and something else each time.
+    // As long as the camera moves, an even light tells better where one is.
+    picture.isPreview = !wish.view && hasPower_ && hasMoved(lastWish_, wish);
+    lastWish_ = wish;
+    int divisor = 0;
+    if (picture.isPreview) {
+        renderPasses(divisorInTime(wish, View::EVEN_LIGHT), picture);
+        picture.isFirst = picture.isPreview = false;
+        divisor = DIVISOR_AFTER_PREVIEW;
+    } else {
+        divisor = divisorInTime(wish, wish.view);
+    }
+    for (; divisor > 0; divisor /= 2) {
         renderPasses(divisor, picture);
+        picture.isFirst = false;
     }
 }
 
-/// A single pass of an image that is smaller by the divisor, or all passes of the whole image.
+/// By how much an image must be smaller than the window for its pass to take
+/// SECONDS_OF_FIRST_PASS.
+int LiveRenderer::divisorInTime(const Wish& wish, const std::optional<View>& view) const {
+    const auto known = pixelsPerSecond_.find(view);
+    const double rate =
+        known == pixelsPerSecond_.end() ? FIRST_GUESS_OF_PIXELS_PER_SECOND : known->second;
+    const double pixels = static_cast<double>(wish.width) * wish.height;
+    return std::clamp(
+        static_cast<int>(std::ceil(std::sqrt(pixels / (rate * SECONDS_OF_FIRST_PASS)))), 1,
+        std::max(1, std::min(wish.width, wish.height)));
+}
+
+/// A single pass of a preview, or of an image that is smaller by the divisor, or all passes of the
+/// whole image.
 void LiveRenderer::renderPasses(int divisor, Picture picture) {
     const Wish& wish = picture.wish;
     Film film(std::max(1, wish.width / divisor), std::max(1, wish.height / divisor));
-    const Shown shown = makeShown(wish, film.width(), film.height());
+    const Shown shown = makeShown(wish, picture.isPreview ? View::EVEN_LIGHT : wish.view,
+                                  film.width(), film.height());
     picture.view = shown.view;
     picture.width = film.width();
     picture.height = film.height();
@@ -214,7 +251,7 @@ void LiveRenderer::renderPasses(int divisor, Picture picture) {
             Renderer(interruptible, settings_.seed, settings_.threads).renderPass(film);
         picture.secondsOfLastPass = std::chrono::duration<double>(Clock::now() - start).count();
         if (picture.isFirst)
-            pixelsPerSecond_ = film.width() * film.height() / picture.secondsOfLastPass;
+            adapt(picture.view, film.width() * film.height() / picture.secondsOfLastPass);
         seconds += picture.secondsOfLastPass;
         picture.rays += rays.intersect + rays.visibility;
         picture.raysPerSecond = static_cast<double>(picture.rays) / seconds;
@@ -227,12 +264,19 @@ void LiveRenderer::renderPasses(int divisor, Picture picture) {
                 picture.pixels.emplace_back(film.mean(x, y));
         if (picture.view == View::TIME)
             picture.longestTime = longestTime(picture.pixels);
+        if (picture.isPreview) {
+            const float factor = brightnessOfLight_ / brightness(picture.pixels);
+            for (V3f& pixel : picture.pixels)
+                pixel *= factor;
+        } else if (!picture.view) {
+            brightnessOfLight_ = brightness(picture.pixels);
+        }
 
         auto published = std::make_shared<const Picture>(picture);
         std::unique_lock lock(mutex_);
         picture_ = std::move(published);
         picture.isFirst = false;
-        if (divisor > 1)
+        if (divisor > 1 || picture.isPreview)
             return;
         changed_.wait(lock, [&] {
             return isEnding_ || hasNewWish_ || (!isPaused_ && film.passes() < settings_.passes);
@@ -242,13 +286,21 @@ void LiveRenderer::renderPasses(int divisor, Picture picture) {
     }
 }
 
-LiveRenderer::Shown LiveRenderer::makeShown(const Wish& wish, int width, int height) {
+/// Halfway, since a pass may have been disturbed.
+void LiveRenderer::adapt(const std::optional<View>& view, double pixelsPerSecond) {
+    const auto [known, isNew] = pixelsPerSecond_.emplace(view, pixelsPerSecond);
+    if (!isNew)
+        known->second = std::sqrt(known->second * pixelsPerSecond);
+}
+
+LiveRenderer::Shown LiveRenderer::makeShown(const Wish& wish, const std::optional<View>& view,
+                                            int width, int height) {
     const auto falseColour = [&](View view) {
         return std::make_unique<FalseColour>(view, scene_, *kernel_, wish.camera, width, height,
                                              sceneDiagonal_);
     };
     Shown shown;
-    shown.view = wish.view;
+    shown.view = view;
     if (needsLights(shown.view) && !hasPower_)
         shown.view = View::EVEN_LIGHT;
     if (shown.view == View::ERRORS && !hasReference())

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <thread>
 
@@ -38,6 +39,7 @@ struct Picture {
     Wish wish;
     std::chrono::steady_clock::time_point wished;
     bool isFirst = false;      ///< of this wish
+    bool isPreview = false;    ///< in an even light, as bright as the last picture of real light
     std::optional<View> view;  ///< other than wished for where that needs lights and there are none
     std::array<std::uint64_t, DIFFERENCE_NAMES.size()> differences{};  ///< View::ERRORS: so far
     std::uint64_t rays = 0;
@@ -46,7 +48,7 @@ struct Picture {
 
 /// Loads a scene, lets the kernel build, and renders what is wished for, all beside its caller. A
 /// new wish is first answered at a resolution that takes little time, then finer and finer, then
-/// pass by pass for ever.
+/// pass by pass for ever. Where only the camera has moved, a preview comes first.
 class LiveRenderer {
   public:
     enum class Stage { LOADING, BUILDING, RENDERING, BUILDING_REFERENCE };
@@ -95,7 +97,9 @@ class LiveRenderer {
     void renderWishes();
     void renderWish(const Wish& wish, std::chrono::steady_clock::time_point wished);
     void renderPasses(int divisor, Picture picture);
-    Shown makeShown(const Wish& wish, int width, int height);
+    int divisorInTime(const Wish& wish, const std::optional<View>& view) const;
+    void adapt(const std::optional<View>& view, double pixelsPerSecond);
+    Shown makeShown(const Wish& wish, const std::optional<View>& view, int width, int height);
     bool hasReference();
 
     const Settings settings_;
@@ -107,8 +111,9 @@ class LiveRenderer {
     Camera startCamera_;
     std::unique_ptr<RTKernel> reference_;  ///< built when it is first needed
     std::string problemOfReference_;
-    double pixelsPerSecond_ = 0;  ///< of the first pass of the last wish
-    std::optional<View> viewOfLastWish_;
+    std::optional<Wish> lastWish_;
+    std::map<std::optional<View>, double> pixelsPerSecond_;  ///< of first passes
+    float brightnessOfLight_ = 0.5;                          ///< the last picture's
 
     std::atomic<Stage> stage_ = Stage::LOADING;
     std::atomic<bool> isEnding_ = false;

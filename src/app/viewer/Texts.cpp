@@ -68,6 +68,8 @@ Lines statusLines(const Picture& picture, const Settings& settings, const Flight
         "position " + format(picture.wish.camera.position),
         "direction " + format(picture.wish.camera.direction.normalized()),
         format("speed %.3g per second", flight.speed())};
+    if (picture.isPreview)
+        lines.push_back("even light while the camera moves");
     if (exposure.stops != 0)
         lines.push_back(format("exposure %+.1f stops", exposure.stops));
     return lines;
@@ -78,7 +80,7 @@ bool isScale(const std::optional<View>& view) {
 }
 
 Lines legendLines(const Picture& picture, double sceneDiagonal, Exposure exposure) {
-    if (!picture.view)
+    if (!picture.view || picture.isPreview)
         return {};
     switch (*picture.view) {
         case View::NORMALS:

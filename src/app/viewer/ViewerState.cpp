@@ -258,7 +258,7 @@ bool ViewerState::Moment::isOver() const {
 
 bool ViewerState::showsLegend() const {
     return showsStatus_ || !legendShown_.isOver() ||
-           (picture_ && picture_->view == View::EVEN_LIGHT);
+           (picture_ && picture_->view == View::EVEN_LIGHT && !picture_->isPreview);
 }
 
 std::string ViewerState::message() const {

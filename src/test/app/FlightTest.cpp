@@ -9,7 +9,7 @@ namespace bwfirt {
 namespace {
 
 constexpr double PI = std::numbers::pi;
-constexpr double DIAGONAL = 8;  // a speed of 1 per second
+constexpr double DIAGONAL = 12;  // a speed of 1 per second
 
 /// At the origin, looking along -z, y up.
 Camera level() {

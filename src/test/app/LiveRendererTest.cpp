@@ -55,7 +55,7 @@ class LiveRendering : public testing::Test {
         waitUntil([&] {
             picture = renderer.picture();
             return picture && picture->wish == wish && picture->width == WIDTH &&
-                   picture->passes >= passes;
+                   !picture->isPreview && picture->passes >= passes;
         });
         return picture;
     }
@@ -91,6 +91,34 @@ TEST_F(LiveRendering, ANewWishReplacesTheOneBefore) {
     renderer->show(wish);
     const auto after = pictureOf(*renderer, settings.passes);
     EXPECT_NE(before->pixels, after->pixels);
+}
+
+TEST_F(LiveRendering, AMovedCameraShowsAnEvenLightFirst) {
+    const auto renderer = start();
+    renderer->show(wish);
+    const auto before = pictureOf(*renderer, settings.passes);
+    std::shared_ptr<const Picture> first;
+    // The preview may be gone before anybody looks.
+    for (int i = 1; !first || !first->isPreview; ++i) {
+        ASSERT_LT(i, 1000);
+        wish.camera.position.x = i / 2000.0;
+        renderer->show(wish);
+        waitUntil([&] {
+            first = renderer->picture();
+            return first->wish == wish;
+        });
+    }
+    EXPECT_TRUE(first->isFirst);
+    const auto mean = [](const Picture& picture) {
+        double sum = 0;
+        for (const V3f& pixel : picture.pixels)
+            sum += std::min(pixel.x, 1.F) / static_cast<double>(picture.pixels.size());
+        return sum;
+    };
+    EXPECT_NEAR(mean(*first), mean(*before), 0.2 * mean(*before)) << "as bright as the light";
+    const auto last = pictureOf(*renderer, settings.passes);
+    EXPECT_FALSE(last->isPreview);
+    EXPECT_EQ(last->view, std::nullopt);
 }
 
 TEST_F(LiveRendering, ManyWishesInARowEndInAPictureOfTheLast) {
