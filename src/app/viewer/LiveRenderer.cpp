@@ -38,12 +38,15 @@ bool hasMoved(const std::optional<Wish>& before, const Wish& now) {
     return there == now;
 }
 
-/// The average of a picture as it can be shown, from 0 to 1.
+/// The average of what can be shown, from 0 to 1, over the pixels that are not black; 0 where all
+/// are.
 float brightness(const std::vector<V3f>& pixels) {
-    double sum = 1e-6;  // never 0
-    for (const V3f& pixel : pixels)
+    float sum = 0, lit = 0;
+    for (const V3f& pixel : pixels) {
         sum += std::clamp(pixel.x, 0.F, 1.F);
-    return static_cast<float>(sum / static_cast<double>(pixels.size()));
+        lit += pixel.x > 0 ? 1 : 0;
+    }
+    return lit > 0 ? sum / lit : 0;
 }
 
 /// The time that nineteen of twenty pixels take at most: the others may have been interrupted.
@@ -264,13 +267,12 @@ void LiveRenderer::renderPasses(int divisor, Picture picture) {
                 picture.pixels.emplace_back(film.mean(x, y));
         if (picture.view == View::TIME)
             picture.longestTime = longestTime(picture.pixels);
-        if (picture.isPreview) {
-            const float factor = brightnessOfLight_ / brightness(picture.pixels);
+        const float bright = brightness(picture.pixels);
+        if (picture.isPreview && bright > 0)
             for (V3f& pixel : picture.pixels)
-                pixel *= factor;
-        } else if (!picture.view) {
-            brightnessOfLight_ = brightness(picture.pixels);
-        }
+                pixel *= brightnessOfLight_ / bright;
+        if (!picture.view && bright > 0)
+            brightnessOfLight_ = bright;
 
         auto published = std::make_shared<const Picture>(picture);
         std::unique_lock lock(mutex_);
