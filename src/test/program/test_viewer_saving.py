@@ -10,7 +10,7 @@ import pytest
 from display import Display, wait_for
 from picking import (POSITION, lights_after, lights_after_click, lights_of, picked, saved,
                      seen_at)
-from program import batch_command, complaint, render, run
+from program import batch_command, complaint, mounted_disk, render, run
 from viewer import WIDTH, is_smooth, viewing
 
 COMMENTED = """\
@@ -140,17 +140,18 @@ def test_a_working_folder_that_cannot_be_written_is_a_complaint(
 
 def test_a_scene_that_does_not_fit_on_the_disk_is_kept(
         display: Display, program: Path, folder: Path) -> None:
-    """A limit of the size of files is as good as a small disk."""
     old = COMMENTED + '# and so on\n' * 1000
-    (folder / 'box.scene').write_text(old)
-    with viewing(display, program, folder, before=('prlimit', '--fsize=4096'),
-                 errors=rf'{program.name}: .*box.scene.*\n') as viewer:
-        lights_after(viewer, 'key', 'Up')
-        viewer.press('ctrl+s')
-        wait_for(viewer.errors, 'a complaint')
-        lights_after(viewer, 'key', 'Up')
-    assert (folder / 'box.scene').read_text() == old
-    assert sorted(path.name for path in folder.iterdir()) == ['box.camera', 'box.ra2', 'box.scene']
+    with mounted_disk(folder, '16k') as disk:
+        (disk / 'box.scene').write_text(old)
+        (disk / 'box.ra2').symlink_to(folder / 'box.ra2')
+        with viewing(display, program, folder, scene=disk / 'box.scene',
+                     errors=rf'{program.name}: .*box.scene.*\n') as viewer:
+            lights_after(viewer, 'key', 'Up')
+            viewer.press('ctrl+s')
+            wait_for(viewer.errors, 'a complaint')
+            lights_after(viewer, 'key', 'Up')
+        assert (disk / 'box.scene').read_text() == old
+        assert sorted(path.name for path in disk.iterdir()) == ['box.ra2', 'box.scene']
 
 
 def test_a_scene_that_was_spoilt_or_removed_meanwhile_is_a_complaint(
