@@ -64,7 +64,7 @@ V3d FalseColour::colourOf(const Ray& ray, const Hit& hit) const {
     const V3d direction(ray.direction);
     const V3d normal = unitNormalAgainst(direction, scene_.triangles[hit.triangle]);
     if (view_ == View::EVEN_LIGHT)
-        return V3d(scene_.reflectance * (1 - normal.dot(direction)) / 2);
+        return V3d(scene_.reflectance * -normal.dot(direction));
     return (normal + V3d(1)) / 2;
 }
 

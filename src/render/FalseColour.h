@@ -12,7 +12,7 @@ enum class View {
     DISTANCE,    ///< dark blue at the camera to yellow at the length of the scene's diagonal
     QUERIES,     ///< questions that a path asks the kernel, from dark blue for 0 to yellow for 32
     TIME,        ///< seconds that h takes for the camera's ray: a number in all three channels
-    EVEN_LIGHT,  ///< the reflectance, darker where the surface turns away: needs no light source
+    EVEN_LIGHT,  ///< the reflectance times the cosine at which a surface is seen: needs no lights
     ERRORS,      ///< where the kernel disagrees with another, see ErrorView
 };
 

@@ -38,15 +38,13 @@ bool hasMoved(const std::optional<Wish>& before, const Wish& now) {
     return there == now;
 }
 
-/// The average of what can be shown, from 0 to 1, over the pixels that are not black; 0 where all
-/// are.
+/// The average of what can be shown, from 0 to 1; some light even where all is black.
 float brightness(const std::vector<V3f>& pixels) {
-    float sum = 0, lit = 0;
-    for (const V3f& pixel : pixels) {
+    constexpr float DARKEST = 0.05F;
+    float sum = 0;
+    for (const V3f& pixel : pixels)
         sum += std::clamp(pixel.x, 0.F, 1.F);
-        lit += pixel.x > 0 ? 1 : 0;
-    }
-    return lit > 0 ? sum / lit : 0;
+    return std::max(DARKEST, sum / static_cast<float>(pixels.size()));
 }
 
 /// The time that nineteen of twenty pixels take at most: the others may have been interrupted.
@@ -267,12 +265,13 @@ void LiveRenderer::renderPasses(int divisor, Picture picture) {
                 picture.pixels.emplace_back(film.mean(x, y));
         if (picture.view == View::TIME)
             picture.longestTime = longestTime(picture.pixels);
-        const float bright = brightness(picture.pixels);
-        if (picture.isPreview && bright > 0)
+        if (!picture.view)
+            brightnessOfLight_ = brightness(picture.pixels);
+        if (picture.isPreview) {
+            const float factor = brightnessOfLight_ / brightness(picture.pixels);
             for (V3f& pixel : picture.pixels)
-                pixel *= brightnessOfLight_ / bright;
-        if (!picture.view && bright > 0)
-            brightnessOfLight_ = bright;
+                pixel *= factor;
+        }
 
         auto published = std::make_shared<const Picture>(picture);
         std::unique_lock lock(mutex_);

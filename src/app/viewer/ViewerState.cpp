@@ -148,6 +148,8 @@ void ViewerState::pickAt(int x, int y) {
 }
 
 void ViewerState::setHidden(bool isHidden) {
+    if (isHidden == isHidden_)
+        return;
     isHidden_ = isHidden;
     pause();
 }
@@ -248,8 +250,10 @@ void ViewerState::updateWish() {
 
 void ViewerState::drawn() {
     isChanged_ = false;
-    if (picture_ && picture_->isFirst)
-        secondsOfReaction_ = std::chrono::duration<double>(Clock::now() - picture_->wished).count();
+    if (!picture_ || picture_->wished == answered_)
+        return;
+    answered_ = picture_->wished;
+    secondsOfReaction_ = std::chrono::duration<double>(Clock::now() - answered_).count();
 }
 
 bool ViewerState::Moment::isOver() const {

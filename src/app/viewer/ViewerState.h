@@ -98,6 +98,7 @@ class ViewerState {
     Moment messageShown_;
     Moment legendShown_;
     double secondsOfReaction_ = 0;
+    Clock::time_point answered_{};  ///< the wish that secondsOfReaction_ is of
     Clock::time_point lastUpdate_ = Clock::now();
 };
 

@@ -104,24 +104,9 @@ void Viewer::handleKey(const SDL_KeyboardEvent& event) {
 
 void Viewer::handleWindow(const SDL_WindowEvent& event) {
     needsDrawing_ = true;
-    if (!state_)
-        return;
-    switch (event.event) {
-        case SDL_WINDOWEVENT_FOCUS_LOST:
-            state_->releaseAll();
-            input_.releaseMouse();
-            break;
-        case SDL_WINDOWEVENT_MINIMIZED:
-        case SDL_WINDOWEVENT_HIDDEN:
-            state_->setHidden(true);
-            break;
-        case SDL_WINDOWEVENT_RESTORED:
-        case SDL_WINDOWEVENT_SHOWN:
-        case SDL_WINDOWEVENT_EXPOSED:
-            state_->setHidden(false);
-            break;
-        default:
-            break;
+    if (state_ && event.event == SDL_WINDOWEVENT_FOCUS_LOST) {
+        state_->releaseAll();
+        input_.releaseMouse();
     }
 }
 
@@ -131,6 +116,7 @@ void Viewer::update() {
         state_.emplace(settings_, renderer_);
     if (state_) {
         state_->resize(window_.width(), window_.height());
+        state_->setHidden(window_.isHidden());
         needsDrawing_ |= state_->update();
     }
     std::string progress = progressText(

@@ -27,7 +27,8 @@ void require(bool isDone) {
 
 /// The file of a font in which all characters have the same width.
 std::string monospaceFont() {
-    FcPattern* pattern = FcNameParse(reinterpret_cast<const FcChar8*>("monospace:scalable=true"));
+    FcPattern* pattern =
+        FcNameParse(reinterpret_cast<const FcChar8*>("DejaVu Sans Mono,monospace:scalable=true"));
     FcConfigSubstitute(nullptr, pattern, FcMatchPattern);
     FcDefaultSubstitute(pattern);
     FcResult result{};
@@ -107,6 +108,10 @@ SDL_Point Window::pixelAt(int x, int y) const {
     return {x * width() / windowWidth, y * height() / windowHeight};
 }
 
+bool Window::isHidden() const {
+    return (SDL_GetWindowFlags(window_.get()) & (SDL_WINDOW_HIDDEN | SDL_WINDOW_MINIMIZED)) != 0;
+}
+
 void Window::toggleFullScreen() {
     const bool isFull = (SDL_GetWindowFlags(window_.get()) & SDL_WINDOW_FULLSCREEN) != 0;
     SDL_SetWindowFullscreen(window_.get(), isFull ? 0 : SDL_WINDOW_FULLSCREEN_DESKTOP);
@@ -174,11 +179,18 @@ void Window::drawPanel(Corner corner, const std::vector<TextLine>& lines,
     }
     const int rows = static_cast<int>(lines.size()) + (colourAt ? 1 : 0);
     SDL_Rect panel{margin, margin, textWidth + 2 * margin, rows * lineHeight + margin};
+    // A panel that is too large for the window is drawn smaller.
+    const float scale = std::min(
+        {1.F, static_cast<float>(width()) / panel.w, static_cast<float>(height()) / panel.h});
+    SDL_RenderSetScale(renderer_.get(), scale, scale);
+    const auto free = [scale](int window, int used) {
+        return std::max(0, static_cast<int>(window / scale) - used);
+    };
     if (corner == Corner::LOWER_LEFT)
-        panel.y = height() - panel.h - margin;
+        panel.y = free(height(), panel.h + margin);
     if (corner == Corner::CENTRE) {
-        panel.x = std::max(0, (width() - panel.w) / 2);
-        panel.y = std::max(0, (height() - panel.h) / 2);
+        panel.x = free(width(), panel.w) / 2;
+        panel.y = free(height(), panel.h) / 2;
     }
     SDL_SetRenderDrawColor(renderer_.get(), 0, 0, 0, PANEL_OPACITY);
     SDL_RenderFillRect(renderer_.get(), &panel);
@@ -198,6 +210,7 @@ void Window::drawPanel(Corner corner, const std::vector<TextLine>& lines,
         SDL_RenderDrawLine(renderer_.get(), panel.x + margin + x, y, panel.x + margin + x,
                            y + lineHeight * 2 / 3);
     }
+    SDL_RenderSetScale(renderer_.get(), 1, 1);
 }
 
 void Window::present() {

@@ -36,6 +36,9 @@ class Window {
     /// The pixel at a position in SDL's window coordinates.
     SDL_Point pixelAt(int x, int y) const;
 
+    /// Whether nobody can see it, as an icon for instance.
+    bool isHidden() const;
+
     void toggleFullScreen();
 
     /// The picture that drawPicture() draws, 8-bit sRGB, three bytes a pixel, at any size.

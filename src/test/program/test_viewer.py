@@ -136,7 +136,7 @@ def test_a_key_shows_a_panel_and_hides_it(
     with viewing(display, program, folder) as viewer:
         viewer.wait_until_shown(picture)
         viewer.press(key)
-        wait_for(lambda: brightness_is_below(viewer, 0.8, picture.mean()), 'a dark panel')
+        wait_for(lambda: brightness_is_below(viewer, 0.9, picture.mean()), 'a dark panel')
         viewer.press(key)
         viewer.wait_until_shown(picture)
 
@@ -146,7 +146,7 @@ def test_h_and_f1_show_the_same_help(display: Display, program: Path, folder: Pa
     with viewing(display, program, folder) as viewer:
         viewer.wait_until_shown(picture)
         viewer.press('h')
-        wait_for(lambda: brightness_is_below(viewer, 0.8, picture.mean()), 'a dark panel')
+        wait_for(lambda: brightness_is_below(viewer, 0.9, picture.mean()), 'a dark panel')
         seen = viewer.steady_picture()
         viewer.press('F1')
         viewer.wait_until_shown(picture)
