@@ -77,9 +77,6 @@ def main() -> int:
     #
     # clang's OpenMP library tells the thread sanitizer, through its tool Archer, how threads wait
     # for each other. It is not instrumented, so that its own memory would look like races.
-    #
-    # SDL's libraries keep memory that they do not give back.
-    os.environ['LSAN_OPTIONS'] = f'suppressions={HERE / "leaks-of-libraries"}:print_suppressions=0'
     os.environ['ASAN_OPTIONS'] = 'allocator_may_return_null=1'
     os.environ['TSAN_OPTIONS'] = 'allocator_may_return_null=1:ignore_noninstrumented_modules=1'
     with (tempfile.TemporaryDirectory() as scratch,
