@@ -12,3 +12,6 @@ extern "C" int dlclose(void*) {
 extern "C" const char* __lsan_default_suppressions() {
     return "leak:libdbus\n";
 }
+extern "C" const char* __lsan_default_options() {
+    return "print_suppressions=0";
+}
