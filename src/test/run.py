@@ -79,8 +79,9 @@ def main() -> int:
     # for each other. It is not instrumented, so that its own memory would look like races.
     os.environ['ASAN_OPTIONS'] = 'allocator_may_return_null=1'
     os.environ['TSAN_OPTIONS'] = 'allocator_may_return_null=1:ignore_noninstrumented_modules=1'
+    # Many tests wait, for a window or a browser: one more than processors keeps these busy.
     with (tempfile.TemporaryDirectory() as scratch,
-          ThreadPoolExecutor(os.cpu_count()) as side_by_side):
+          ThreadPoolExecutor(os.cpu_count() + 1) as side_by_side):
         folder = Path(scratch)
         running = [side_by_side.submit(run_program, program, folder)
                    for program in arguments.programs]
