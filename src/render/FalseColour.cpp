@@ -20,14 +20,16 @@ FalseColour::FalseColour(View view, const Scene& scene, const RTKernel& kernel,
       scene_(scene),
       kernel_(kernel),
       cameraRays_(camera, width, height),
-      pathTracer_(scene, kernel, camera, width, height, 1),
-      sceneDiagonal_(sceneDiagonal) {}
+      sceneDiagonal_(sceneDiagonal) {
+    if (view == View::QUERIES)
+        pathTracer_.emplace(scene, kernel, camera, width, height, 1);
+}
 
 void FalseColour::trace(std::span<Sample> samples, RayCounts& counts) const {
     for (Sample& sample : samples) {
         if (view_ == View::QUERIES) {
             RayCounts asked;
-            pathTracer_.trace({&sample, 1}, asked);
+            pathTracer_->trace({&sample, 1}, asked);
             sample.value =
                 viridis(static_cast<double>(asked.intersect + asked.visibility) / MOST_QUERIES);
             counts += asked;

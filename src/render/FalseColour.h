@@ -33,7 +33,7 @@ class FalseColour : public Integrator {
     const Scene& scene_;
     const RTKernel& kernel_;
     CameraRays cameraRays_;
-    PathTracer pathTracer_;
+    std::optional<PathTracer> pathTracer_;  ///< for QUERIES
     double sceneDiagonal_;
 };
 

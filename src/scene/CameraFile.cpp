@@ -119,10 +119,6 @@ bool areParallel(const V3d& a, const V3d& b) {
     return a.normalized().cross(b.normalized()).length() < 1e-9;
 }
 
-std::string format(const V3d& v) {
-    return formatNumber(v.x) + " " + formatNumber(v.y) + " " + formatNumber(v.z);
-}
-
 }  // namespace
 
 Camera readCamera(const std::filesystem::path& path) {
@@ -148,14 +144,15 @@ Camera readCamera(const std::filesystem::path& path) {
 
 std::string cameraText(const Camera& camera, const std::string& comment) {
     std::string text = asComment(comment) + "type pinhole\n";
-    text += "position " + format(camera.position) + "\n";
-    text += "direction " + format(camera.direction) + "\n";
-    text += "up " + format(camera.up) + "\n";
+    text += "position " + formatNumbers(camera.position) + "\n";
+    text += "direction " + formatNumbers(camera.direction) + "\n";
+    text += "up " + formatNumbers(camera.up) + "\n";
     text += "depth " + formatNumber(camera.depth) + "\n";
     text += "filmSizeY " + formatNumber(camera.filmSizeY) + "\n";
     text += "sensorResponse " + formatNumber(camera.sensorResponse) + "\n";
     if (camera.referenceAverageIntensity)
-        text += "referenceAverageIntensity (" + format(*camera.referenceAverageIntensity) + ")\n";
+        text += "referenceAverageIntensity (" + formatNumbers(*camera.referenceAverageIntensity) +
+                ")\n";
     return text;
 }
 
@@ -164,7 +161,8 @@ void writeCamera(const std::filesystem::path& path, const Camera& camera) {
 }
 
 std::string referenceLine(const V3d& averageIntensity, const std::string& comment) {
-    return "referenceAverageIntensity (" + format(averageIntensity) + ")  # " + comment + "\n";
+    return "referenceAverageIntensity (" + formatNumbers(averageIntensity) + ")  # " + comment +
+           "\n";
 }
 
 void writeReference(const std::filesystem::path& path, const std::string& line) {

@@ -123,4 +123,8 @@ std::string formatNumber(double value) {
     return std::string(buffer.data(), result.ptr);
 }
 
+std::string formatNumbers(const V3d& v) {
+    return formatNumber(v.x) + " " + formatNumber(v.y) + " " + formatNumber(v.z);
+}
+
 }  // namespace bwfirt

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "math/Vector.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -72,5 +74,8 @@ std::optional<double> parseNumber(std::string_view text);
 
 /// The shortest text from which parseNumber gives back this very number.
 std::string formatNumber(double value);
+
+/// The three numbers, separated by spaces.
+std::string formatNumbers(const V3d& v);
 
 }  // namespace bwfirt

@@ -7,10 +7,6 @@ namespace bwfirt {
 
 namespace {
 
-std::string format(const V3d& v) {
-    return formatNumber(v.x) + " " + formatNumber(v.y) + " " + formatNumber(v.z);
-}
-
 /// The part of a polygon on which plane·point >= 0 (Sutherland and Hodgman: Reentrant polygon
 /// clipping, 1974).
 std::vector<V3d> clip(const std::vector<V3d>& polygon, const V3d& plane, double offset) {
@@ -45,8 +41,8 @@ std::string describe(const std::optional<Pick>& pick) {
     if (!pick)
         return "triangle none";
     return "triangle " + std::to_string(pick->triangle) + " distance " +
-           formatNumber(pick->distance) + " point " + format(pick->point) + " normal " +
-           format(pick->normal) + " area " + formatNumber(pick->area);
+           formatNumber(pick->distance) + " point " + formatNumbers(pick->point) + " normal " +
+           formatNumbers(pick->normal) + " area " + formatNumber(pick->area);
 }
 
 std::vector<Imath::V2f> outline(const Triangle& triangle, const CameraRays& rays, int width,

@@ -63,11 +63,11 @@ void keepBetter(View& best, const View& view) {
 /// Looks around in a scene.
 class Scout {
   public:
-    Scout(const Scene& scene, const RTKernel& kernel)
+    Scout(const Scene& scene, const RTKernel& kernel, const Imath::Box3d& bounds)
         : scene_(scene),
           kernel_(kernel),
-          space_(spaceOf(boundsOf(scene))),
-          details_(detailsOf(scene, boundsOf(scene))),
+          space_(spaceOf(bounds)),
+          details_(detailsOf(scene, bounds)),
           surroundings_(surroundingsOf(details_, space_)) {
         const int axis = upAxis(scene);
         up_[axis] = 1;
@@ -244,7 +244,7 @@ Camera Scout::cameraOf(const View& view) const {
 }  // namespace
 
 Camera startCamera(const Scene& scene, const RTKernel& kernel) {
-    return Scout(scene, kernel).bestCamera();
+    return Scout(scene, kernel, boundsOf(scene)).bestCamera();
 }
 
 }  // namespace bwfirt
