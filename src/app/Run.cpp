@@ -34,6 +34,7 @@ void Run::initializeKernel() {
     omp_set_num_threads(settings_.threads);  // for the kernel, which may build in parallel
     before_ = processMemory();
     report.secondsInitialize = secondsOf([&] { kernel_->kernelInitialize(scene_.triangles); });
+    report.kernelDescription = kernel_->kernelDescription();
 }
 
 void Run::measureKernelMemory() {

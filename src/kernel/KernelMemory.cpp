@@ -20,17 +20,6 @@ namespace {
 std::atomic<std::size_t> now{0};
 std::atomic<std::size_t> peak{0};
 
-void count(std::size_t bytes) {
-    const std::size_t after = now.fetch_add(bytes) + bytes;
-    std::size_t highest = peak.load();
-    while (highest < after && !peak.compare_exchange_weak(highest, after)) {
-    }
-}
-
-void uncount(std::size_t bytes) {
-    now.fetch_sub(bytes);
-}
-
 /// Stands directly in front of the bytes that the kernel sees.
 struct Header {
     void* block;
@@ -69,6 +58,16 @@ void KernelMemory::resetPeak() {
     peak.store(now.load());
 }
 
+void RTKernel::kernel_count(std::ptrdiff_t bytes) {
+    const std::size_t after =
+        now.fetch_add(static_cast<std::size_t>(bytes)) + static_cast<std::size_t>(bytes);
+    if (bytes < 0)
+        return;
+    std::size_t highest = peak.load();
+    while (highest < after && !peak.compare_exchange_weak(highest, after)) {
+    }
+}
+
 void* RTKernel::kernel_malloc(std::size_t bytes, std::size_t alignment) {
     assert(std::has_single_bit(alignment));
     alignment = std::max(alignment, alignof(Header));
@@ -77,7 +76,7 @@ void* RTKernel::kernel_malloc(std::size_t bytes, std::size_t alignment) {
         throw std::bad_alloc();
     char* pointer = firstAligned(block, alignment);
     headerOf(pointer) = {block, bytes, alignment};
-    count(bytes);
+    kernel_count(static_cast<std::ptrdiff_t>(bytes));
     return pointer;
 }
 
@@ -95,10 +94,7 @@ void* RTKernel::kernel_realloc(void* pointer, std::size_t bytes) {
     char* result = firstAligned(block, old.alignment);
     std::memmove(result, static_cast<char*>(block) + offset, std::min(bytes, old.bytes));
     headerOf(result) = {block, bytes, old.alignment};
-    if (bytes > old.bytes)
-        count(bytes - old.bytes);
-    else
-        uncount(old.bytes - bytes);
+    kernel_count(static_cast<std::ptrdiff_t>(bytes - old.bytes));
     return result;
 }
 
@@ -106,7 +102,7 @@ void RTKernel::kernel_free(void* pointer) {
     if (pointer == nullptr)
         return;
     const Header header = headerOf(pointer);
-    uncount(header.bytes);
+    kernel_count(-static_cast<std::ptrdiff_t>(header.bytes));
     std::free(header.block);
 }
 

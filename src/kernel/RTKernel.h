@@ -96,6 +96,10 @@ class RTKernel {
     /// @throws std::invalid_argument saying which values there are, where this is none of them
     virtual void kernelSetOption(std::string_view name, const std::string& value);
 
+    /// What the kernel has to say of itself in the report, the version of a library for instance.
+    /// Asked for after kernelInitialize().
+    virtual std::string kernelDescription() const { return {}; }
+
     /// The counting allocators: memory that a kernel takes from them is reported as its own. Use
     /// them, or KernelAllocator for standard containers, for everything that grows with the scene;
     /// the report warns of kernels that do not. They may be called from many threads at once.
@@ -111,6 +115,10 @@ class RTKernel {
 
     /// Gives back what kernel_malloc or kernel_realloc returned. A null pointer is ignored.
     static void kernel_free(void* pointer);
+
+    /// Counts bytes that a library has allocated for the kernel, or, where negative, given back:
+    /// for libraries that allocate for themselves and tell how much.
+    static void kernel_count(std::ptrdiff_t bytes);
 };
 
 /// Lets standard containers count as the kernel's memory:

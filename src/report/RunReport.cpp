@@ -118,6 +118,8 @@ Json asJson(const RunReport& report) {
         {"squared_error", report.squaredError()},
         {"warnings", report.warnings},
     };
+    if (!report.kernelDescription.empty())
+        json["kernel_description"] = report.kernelDescription;
     if (!report.view.empty())
         json["view"] = report.view;
     if (report.replay)

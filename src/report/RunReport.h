@@ -16,6 +16,7 @@ namespace bwfirt {
 /// The measurements of one run. Times are wall-clock seconds, memory is in bytes.
 struct RunReport {
     std::vector<KernelOption> kernelOptions;  ///< those that the user set
+    std::string kernelDescription;            ///< what the kernel says of itself; often empty
     std::string scene;
     std::string camera;
     std::string view;  ///< of a false-colour image; empty for light transport

@@ -32,6 +32,16 @@ TEST(KernelMemory, CountsBytesNowAndPeak) {
     EXPECT_EQ(KernelMemory::bytesNow(), 0u);
 }
 
+TEST(KernelMemory, CountsWhatLibrariesTell) {
+    KernelMemory::resetPeak();
+    RTKernel::kernel_count(700);
+    RTKernel::kernel_count(-200);
+    EXPECT_EQ(KernelMemory::bytesNow(), 500u);
+    EXPECT_EQ(KernelMemory::bytesPeak(), 700u);
+    RTKernel::kernel_count(-500);
+    EXPECT_EQ(KernelMemory::bytesNow(), 0u);
+}
+
 TEST(KernelMemory, HonoursEveryAlignment) {
     for (std::size_t alignment = 1; alignment <= 1 << 21; alignment *= 2) {
         void* pointer = RTKernel::kernel_malloc(100, alignment);
