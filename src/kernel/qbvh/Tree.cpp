@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "kernel/qbvh/Tree.h"
+
+#include "kernel/qbvh/Split.h"
+
+#include <atomic>
+#include <cmath>
+#include <stdexcept>
+
+namespace bwfirt {
+
+namespace {
+
+class Builder {
+  public:
+    Builder(std::span<const Triangle> triangles, Tree& tree) : triangles_(triangles), tree_(tree) {}
+
+    void build() {
+        collectReferences();
+        if (count_ == 0)
+            return;
+        if (count_ > Child::MOST_ENTRIES)
+            throw std::length_error("more triangles than a leaf can refer to");
+        // Every node has an inner node and three leaves of one triangle at worst, see split().
+        tree_.nodes = makeArray<Node>(count_ / 3 + 1);
+#pragma omp parallel
+#pragma omp single
+        buildRoot();
+        tree_.nodes.reset(static_cast<Node*>(
+            RTKernel::kernel_realloc(tree_.nodes.release(), nodeCount_ * sizeof(Node))));
+        tree_.indices = makeArray<std::uint32_t>(count_);
+#pragma omp parallel for
+        for (std::size_t i = 0; i < count_; ++i)
+            tree_.indices[i] = references_[i].triangle;
+    }
+
+  private:
+    /// Groups of fewer references are built by one thread.
+    static constexpr std::size_t TASK_SIZE = 1 << 10;
+
+    void collectReferences() {
+        constexpr std::size_t PIECE = 1 << 14;
+        const std::size_t pieces = (triangles_.size() + PIECE - 1) / PIECE;
+        const auto end = [&](std::size_t i) {
+            return std::min((i + 1) * PIECE, triangles_.size());
+        };
+        std::vector<std::size_t> first(pieces + 1, 0);
+#pragma omp parallel for
+        for (std::size_t piece = 0; piece < pieces; ++piece)
+            for (std::size_t i = piece * PIECE; i < end(piece); ++i)
+                first[piece + 1] += hasArea(triangles_[i]) ? 1 : 0;
+        for (std::size_t piece = 0; piece < pieces; ++piece)
+            first[piece + 1] += first[piece];
+        count_ = first[pieces];
+        references_ = makeArray<Reference>(count_);
+#pragma omp parallel for
+        for (std::size_t piece = 0; piece < pieces; ++piece) {
+            Reference* next = &references_[first[piece]];
+            for (std::size_t i = piece * PIECE; i < end(piece); ++i)
+                if (hasArea(triangles_[i]))
+                    *next++ = referenceTo(static_cast<std::uint32_t>(i));
+        }
+    }
+
+    Reference referenceTo(std::uint32_t index) const {
+        const auto& [a, b, c] = triangles_[index].vertices;
+        Reference reference{a, a, index};
+        for (int axis = 0; axis < 3; ++axis) {
+            reference.low[axis] = std::min({a[axis], b[axis], c[axis]});
+            reference.high[axis] = std::max({a[axis], b[axis], c[axis]});
+        }
+        return reference;
+    }
+
+    void buildRoot() {
+        const Group root = groupOf({references_.get(), count_});
+        float largest = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            largest = std::max(
+                {largest, std::abs(root.bounds.low[axis]), std::abs(root.bounds.high[axis])});
+        tree_.scale = std::ldexp(1.0, -std::ilogb(largest) - 1);
+        nodeCount_ = 1;
+        buildNode(0, root, 0);
+    }
+
+    void buildNode(std::uint32_t index, const Group& group, int depth) {
+        std::array<Group, Node::WIDTH> groups;
+        const std::size_t count = split(group, depth, groups);
+        std::array<Bounds, Node::WIDTH> boxes;
+        std::uint32_t innerCount = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            boxes[i] = groups[i].bounds;
+            innerCount += isLeaf(groups[i]) ? 0 : 1;
+        }
+        Node& node = tree_.nodes[index];
+        node.setBoxes({boxes.data(), count}, tree_.scale);
+        std::uint32_t nextNode = nodeCount_.fetch_add(innerCount);
+        for (std::size_t i = 0; i < Node::WIDTH; ++i) {
+            const Group& child = groups[std::min(i, count - 1)];
+            if (isLeaf(child)) {
+                node.children[i] = Child::leaf(
+                    static_cast<std::uint32_t>(child.references.data() - references_.get()),
+                    static_cast<std::uint32_t>(child.size()));
+            } else {
+                const std::uint32_t childIndex = nextNode++;
+                node.children[i] = Child::node(childIndex);
+#pragma omp task default(none) firstprivate(childIndex, child, depth) if (child.size() > TASK_SIZE)
+                buildNode(childIndex, child, depth + 1);
+            }
+        }
+    }
+
+    static bool isLeaf(const Group& group) {
+        return group.size() <= Child::LARGEST_LEAF;
+    }
+
+    /// Splits the group into at most four, and returns their number. What is too large for a leaf
+    /// is split first, so that a node has less than four children only where all of them are
+    /// leaves.
+    static std::size_t split(const Group& group, int depth,
+                             std::array<Group, Node::WIDTH>& groups) {
+        groups[0] = group;
+        std::size_t count = 1;
+        while (count < Node::WIDTH) {
+            Group* widest = nullptr;
+            for (Group& candidate : std::span(groups.data(), count))
+                if (candidate.size() > 1 &&
+                    (!widest || isToBeSplitBefore(candidate, *widest, depth)))
+                    widest = &candidate;
+            if (!widest)
+                break;
+            std::optional<Parts> parts;
+            if (depth < Tree::MAX_SAH_DEPTH)
+                parts = splitBySah(*widest);
+            if (!parts)
+                parts = halve(*widest);
+            *widest = parts->first;
+            groups[count++] = parts->second;
+        }
+        return count;
+    }
+
+    static bool isToBeSplitBefore(const Group& a, const Group& b, int depth) {
+        if (isLeaf(a) != isLeaf(b))
+            return isLeaf(b);
+        if (depth >= Tree::MAX_SAH_DEPTH)
+            return a.size() > b.size();
+        return halfArea(a.bounds) > halfArea(b.bounds);
+    }
+
+    std::span<const Triangle> triangles_;
+    Tree& tree_;
+    Array<Reference> references_;
+    std::size_t count_ = 0;
+    std::atomic<std::uint32_t> nodeCount_ = 0;
+};
+
+}  // namespace
+
+Tree buildTree(std::span<const Triangle> triangles) {
+    Tree tree;
+    Builder(triangles, tree).build();
+    return tree;
+}
+
+}  // namespace bwfirt
