@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "kernel/wide-bvh/Collapse.h"
+
+#include "kernel/wide-bvh/LeafContent.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace bwfirt::wide {
+
+namespace {
+
+constexpr float INFINITE = std::numeric_limits<float>::infinity();
+
+std::size_t linesOf(std::size_t bytes) {
+    return (bytes + sizeof(Line) - 1) / sizeof(Line);
+}
+
+float halfArea(const Bounds& bounds) {
+    const V3d size = V3d(bounds.high) - V3d(bounds.low);
+    return static_cast<float>(size.x * size.y + size.y * size.z + size.z * size.x);
+}
+
+Node emptyNode(std::uint32_t noChild) {
+    Node node;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        node.planes[axis].fill(INFINITE);
+        node.planes[3 + axis].fill(-INFINITE);
+    }
+    node.children.fill(noChild);
+    return node;
+}
+
+}  // namespace
+
+Collapse::Collapse(std::span<const Triangle> triangles, const BinaryTree& tree)
+    : triangles_(triangles), tree_(tree), weights_(tree.nodes.size()), sizes_(tree.nodes.size()) {
+#pragma omp parallel
+#pragma omp single
+    {
+        weigh(0, 0);
+        measure(0, 0);
+    }
+}
+
+void Collapse::write(Line* lines) const {
+#pragma omp parallel
+#pragma omp single
+    write(0, lines, 0, 0);
+}
+
+void Collapse::weigh(std::uint32_t index, int depth) {
+    const BinaryNode& node = tree_.nodes[index];
+    const float area = halfArea(node.bounds);
+    Weight& weight = weights_[index];
+    weight.costs.fill(INFINITE);
+    weight.leafLines = 0;
+    weight.isLeaf = false;
+    if (node.count > 0) {
+        weighAsLeaf(index, area);
+        weight.costs.fill(weight.costs[0]);
+        return;
+    }
+
+    const std::uint32_t first = node.first, second = node.first + 1;
+#pragma omp task if (depth < PARALLEL_DEPTH) default(shared)
+    weigh(first, depth + 1);
+    weigh(second, depth + 1);
+#pragma omp taskwait
+
+    const auto &one = weights_[first].costs, &other = weights_[second].costs;
+    for (std::size_t most = 2; most <= WIDTH; ++most)
+        for (std::size_t share = 1; share < most; ++share)
+            weight.costs[most - 1] =
+                std::min(weight.costs[most - 1], one[share - 1] + other[most - share - 1]);
+    weight.costs[0] = weight.costs[WIDTH - 1] + area * NODE_COST;
+    if (weights_[first].leafLines > 0 && weights_[second].leafLines > 0)
+        weighAsLeaf(index, area);
+    for (std::size_t i = 1; i < WIDTH; ++i)
+        weight.costs[i] = std::min(weight.costs[i], weight.costs[i - 1]);
+}
+
+void Collapse::weighAsLeaf(std::uint32_t index, float area) {
+    LeafContent content;
+    if (!content.collect(triangles_, tree_, index))
+        return;
+    Weight& weight = weights_[index];
+    weight.leafLines = static_cast<std::uint16_t>(linesOf(content.bytes()));
+    const float cost = area * (LEAF_COST + LINE_COST * weight.leafLines);
+    weight.isLeaf = cost <= weight.costs[0];
+    weight.costs[0] = std::min(weight.costs[0], cost);
+}
+
+std::size_t Collapse::shareOfFirst(const BinaryNode& node, std::size_t most) const {
+    const auto &one = weights_[node.first].costs, &other = weights_[node.first + 1].costs;
+    std::size_t best = 1;
+    for (std::size_t share = 2; share < most; ++share)
+        if (one[share - 1] + other[most - share - 1] < one[best - 1] + other[most - best - 1])
+            best = share;
+    return best;
+}
+
+Collapse::Children Collapse::childrenOf(std::uint32_t index) const {
+    Children children;
+    if (weights_[index].isLeaf) {  // the root
+        children.nodes[children.count++] = index;
+        return children;
+    }
+    const BinaryNode& node = tree_.nodes[index];
+    const std::size_t share = shareOfFirst(node, WIDTH);
+    split(node.first, share, children);
+    split(node.first + 1, WIDTH - share, children);
+    return children;
+}
+
+void Collapse::split(std::uint32_t index, std::size_t most, Children& children) const {
+    const auto& costs = weights_[index].costs;
+    while (most > 1 && costs[most - 2] == costs[most - 1])
+        --most;
+    if (most == 1) {
+        children.nodes[children.count++] = index;
+        return;
+    }
+    const BinaryNode& node = tree_.nodes[index];
+    const std::size_t share = shareOfFirst(node, most);
+    split(node.first, share, children);
+    split(node.first + 1, most - share, children);
+}
+
+std::size_t Collapse::measure(std::uint32_t index, int depth) {
+    const Children children = childrenOf(index);
+    std::array<std::size_t, WIDTH> sizes;
+    for (std::size_t i = 0; i < children.count; ++i) {
+        const std::uint32_t child = children.nodes[i];
+        if (weights_[child].isLeaf)
+            sizes[i] = weights_[child].leafLines;
+        else
+#pragma omp task if (depth < PARALLEL_DEPTH / 3) default(shared) firstprivate(i, child)
+            sizes[i] = measure(child, depth + 1);
+    }
+#pragma omp taskwait
+    sizes_[index] = sizeof(Node) / sizeof(Line) +
+                    std::accumulate(sizes.begin(), sizes.begin() + children.count, std::size_t{0});
+    return sizes_[index];
+}
+
+void Collapse::write(std::uint32_t index, Line* lines, std::size_t first, int depth) const {
+    const Children children = childrenOf(index);
+    Node node = emptyNode(Child::LEAF | static_cast<std::uint32_t>(size()));
+    std::size_t next = first + sizeof(Node) / sizeof(Line);
+    const auto place = [&](std::size_t i, std::uint32_t bits, std::size_t size) {
+        const Bounds& bounds = tree_.nodes[children.nodes[i]].bounds;
+        for (int axis = 0; axis < 3; ++axis) {
+            node.planes[static_cast<std::size_t>(axis)][i] = bounds.low[axis];
+            node.planes[static_cast<std::size_t>(axis) + 3][i] = bounds.high[axis];
+        }
+        node.children[i] = static_cast<std::uint32_t>(next) | bits;
+        next += size;
+    };
+    for (std::size_t i = 0; i < children.count; ++i) {
+        const Weight& weight = weights_[children.nodes[i]];
+        if (!weight.isLeaf)
+            continue;
+        LeafContent content;
+        content.collect(triangles_, tree_, children.nodes[i]);
+        content.write(&lines[next]);
+        place(i, Child::LEAF, weight.leafLines);
+    }
+    for (std::size_t i = 0; i < children.count; ++i) {
+        const std::uint32_t child = children.nodes[i];
+        if (weights_[child].isLeaf)
+            continue;
+#pragma omp task if (depth < PARALLEL_DEPTH / 3) default(shared) firstprivate(child, next)
+        write(child, lines, next, depth + 1);
+        place(i, 0, sizes_[child]);
+    }
+    std::memcpy(&lines[first], &node, sizeof node);
+#pragma omp taskwait
+}
+
+}  // namespace bwfirt::wide

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "kernel/wide-bvh/BinaryTree.h"
+#include "kernel/wide-bvh/WideTree.h"
+
+namespace bwfirt::wide {
+
+/// Finds the wide tree of least cost that a binary tree contains, by the dynamic programming of
+/// Ylitie, Karras and Laine: "Efficient incoherent ray traversal on GPUs through compressed wide
+/// BVHs", HPG 2017, section 3.2. The cost is that of the surface area heuristic.
+class Collapse {
+  public:
+    Collapse(std::span<const Triangle> triangles, const BinaryTree& tree);
+
+    /// Lines of memory that the wide tree takes.
+    std::size_t size() const { return sizes_[0]; }
+
+    /// Writes the tree to `lines`, all of it.
+    void write(Line* lines) const;
+
+  private:
+    /// Of a ray that meets the box, relative to each other: to test the boxes of a node, to begin
+    /// with a leaf, and to fetch each of its lines.
+    static constexpr float NODE_COST = 1, LEAF_COST = 1, LINE_COST = 0.15F;
+
+    /// Binary nodes at this depth and below it are left to the thread that has come to them.
+    static constexpr int PARALLEL_DEPTH = 10;
+
+    struct Weight {
+        /// costs[i] is the least cost of what is below a binary node, where it becomes at most
+        /// i + 1 children of a wide node.
+        std::array<float, WIDTH> costs;
+        std::uint16_t leafLines;  ///< that it takes as a leaf; 0 where it does not fit in one
+        bool isLeaf;              ///< whether it is best made a leaf
+    };
+
+    void weigh(std::uint32_t node, int depth);
+    void weighAsLeaf(std::uint32_t node, float area);
+    std::size_t measure(std::uint32_t node, int depth);
+    void write(std::uint32_t node, Line* lines, std::size_t first, int depth) const;
+
+    struct Children {
+        std::array<std::uint32_t, WIDTH> nodes;
+        std::size_t count = 0;
+    };
+    Children childrenOf(std::uint32_t node) const;
+    void split(std::uint32_t node, std::size_t most, Children& children) const;
+    /// How many of `most` children are best given to the first child of a binary node.
+    std::size_t shareOfFirst(const BinaryNode& node, std::size_t most) const;
+
+    std::span<const Triangle> triangles_;
+    const BinaryTree& tree_;
+    UnsetVector<Weight> weights_;
+    UnsetVector<std::size_t> sizes_;  ///< lines that a node becomes, with all below it
+};
+
+}  // namespace bwfirt::wide

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "kernel/wide-bvh/BinaryTree.h"
+
+namespace bwfirt::wide {
+
+/// Lowers the cost of a tree by the surface area heuristic: takes subtrees out and puts each back
+/// where it makes the boxes grow least. Meister, Bittner: "Parallel reinsertion for bounding volume
+/// hierarchy optimization", Computer Graphics Forum 37(2), 2018.
+void reinsert(BinaryTree& tree, int passes);
+
+}  // namespace bwfirt::wide

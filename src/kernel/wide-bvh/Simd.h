@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include <cstdint>
+
+// What the kernel asks of the processor: `Floats` and `Ints` are WIDTH numbers side by side, a
+// `Mask` has a bit for each. One of three headers is compiled, as the build's `arch` has it; all of
+// them define the same:
+//
+//   all(x), load(numbers)       the same number in all lanes; WIDTH numbers from memory
+//   loadBytes(bytes)            WIDTH bytes as Ints; may read 16
+//   permute(a, lanes)           of each of the lanes that are named, the number in it
+//   + - * and unary -           of Floats, rounded each
+//   multiplyAdd(a, b, c)        a * b + c, rounded once where there is an instruction for it
+//   multiplySubtract(a, b, c)   a * b - c, likewise
+//   subtractProduct(a, b, c)    a - b * c, likewise
+//   lesser(a, b), greater(a, b) where one of them is NaN, it is b
+//   absolute(a), greatestAbsolute(a, b)
+//   timesSign(a, other)         a, negated where `other` is negative
+//   isLess, isLessOrEqual       a Mask; false where one of them is NaN
+//   isNotLess(a, b)             the contrary of isLess
+//
+//   keysOf(numbers, mask)       keys to sort numbers not below 0 by: their bits, and the lane in
+//   the
+//                               lowest four; NO_KEY where the mask has no bit
+//   noKeys(), least(keys), without(keys, lane), isAnyKeyLeft(keys)
+//
+//   topBits(numbers)            the top bits of WIDTH whole numbers in memory
+//   storeChosen(target, mask, numbers)
+//                               stores those that the mask chooses, one behind the other; writes
+//                               WIDTH numbers at most, whatever stands behind those that are chosen
+
+namespace bwfirt::wide {
+
+constexpr std::int32_t LANE_BITS = 15;
+constexpr std::int32_t NO_KEY = 0x7fffffff;
+
+inline int laneOf(std::int32_t key) {
+    return key & LANE_BITS;
+}
+
+}  // namespace bwfirt::wide
+
+#if defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+#include "kernel/wide-bvh/SimdAvx512.h"  // IWYU pragma: export
+#elif defined(__AVX2__) && defined(__FMA__)
+#include "kernel/wide-bvh/SimdAvx2.h"  // IWYU pragma: export
+#else
+#include "kernel/wide-bvh/SimdPlain.h"  // IWYU pragma: export
+#endif

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace bwfirt::wide {
+
+constexpr int WIDTH = 8;
+constexpr const char* INSTRUCTIONS = "no instructions of its own";
+
+using Mask = std::uint32_t;
+
+template <typename Number>
+struct Numbers {
+    std::array<Number, WIDTH> lanes;
+};
+using Floats = Numbers<float>;
+using Ints = Numbers<std::int32_t>;
+
+/// The result of a function of each lane's number.
+template <typename Function>
+auto perLane(const Function& function) {
+    Numbers<decltype(function(std::size_t{0}))> result;
+    for (std::size_t i = 0; i < WIDTH; ++i)
+        result.lanes[i] = function(i);
+    return result;
+}
+template <typename Function>
+Mask maskOf(const Function& function) {
+    Mask mask = 0;
+    for (std::size_t i = 0; i < WIDTH; ++i)
+        mask |= static_cast<Mask>(function(i)) << i;
+    return mask;
+}
+
+inline Floats all(float x) {
+    return perLane([&](std::size_t) { return x; });
+}
+inline Floats load(const float* numbers) {
+    return perLane([&](std::size_t i) { return numbers[i]; });
+}
+inline Ints loadBytes(const std::uint8_t* bytes) {
+    return perLane([&](std::size_t i) { return std::int32_t{bytes[i]}; });
+}
+/// Lanes behind a leaf's own may name any other.
+inline Floats permute(const Floats& a, const Ints& lanes) {
+    return perLane(
+        [&](std::size_t i) { return a.lanes[static_cast<std::size_t>(lanes.lanes[i]) % WIDTH]; });
+}
+
+inline Floats operator+(const Floats& a, const Floats& b) {
+    return perLane([&](std::size_t i) { return a.lanes[i] + b.lanes[i]; });
+}
+inline Floats operator-(const Floats& a, const Floats& b) {
+    return perLane([&](std::size_t i) { return a.lanes[i] - b.lanes[i]; });
+}
+inline Floats operator*(const Floats& a, const Floats& b) {
+    return perLane([&](std::size_t i) { return a.lanes[i] * b.lanes[i]; });
+}
+inline Floats operator-(const Floats& a) {
+    return perLane([&](std::size_t i) { return -a.lanes[i]; });
+}
+inline Floats multiplyAdd(const Floats& a, const Floats& b, const Floats& c) {
+    return a * b + c;
+}
+inline Floats multiplySubtract(const Floats& a, const Floats& b, const Floats& c) {
+    return a * b - c;
+}
+inline Floats subtractProduct(const Floats& a, const Floats& b, const Floats& c) {
+    return a - b * c;
+}
+inline Floats lesser(const Floats& a, const Floats& b) {
+    return perLane(
+        [&](std::size_t i) { return a.lanes[i] < b.lanes[i] ? a.lanes[i] : b.lanes[i]; });
+}
+inline Floats greater(const Floats& a, const Floats& b) {
+    return perLane(
+        [&](std::size_t i) { return a.lanes[i] > b.lanes[i] ? a.lanes[i] : b.lanes[i]; });
+}
+inline Floats absolute(const Floats& a) {
+    return perLane([&](std::size_t i) { return std::abs(a.lanes[i]); });
+}
+inline Floats greatestAbsolute(const Floats& a, const Floats& b) {
+    return greater(absolute(a), absolute(b));
+}
+inline Floats timesSign(const Floats& a, const Floats& other) {
+    return perLane(
+        [&](std::size_t i) { return std::signbit(other.lanes[i]) ? -a.lanes[i] : a.lanes[i]; });
+}
+
+inline Mask isLess(const Floats& a, const Floats& b) {
+    return maskOf([&](std::size_t i) { return a.lanes[i] < b.lanes[i]; });
+}
+inline Mask isLessOrEqual(const Floats& a, const Floats& b) {
+    return maskOf([&](std::size_t i) { return a.lanes[i] <= b.lanes[i]; });
+}
+inline Mask isNotLess(const Floats& a, const Floats& b) {
+    return maskOf([&](std::size_t i) { return !(a.lanes[i] < b.lanes[i]); });
+}
+
+inline Ints noKeys() {
+    return perLane([](std::size_t) { return NO_KEY; });
+}
+inline Ints keysOf(const Floats& numbers, Mask mask) {
+    return perLane([&](std::size_t i) {
+        const auto bits = std::bit_cast<std::int32_t>(numbers.lanes[i]) & ~LANE_BITS;
+        return (mask >> i & 1) != 0 ? bits | static_cast<std::int32_t>(i) : NO_KEY;
+    });
+}
+inline std::int32_t least(const Ints& keys) {
+    return *std::min_element(keys.lanes.begin(), keys.lanes.end());
+}
+inline Ints without(Ints keys, int lane) {
+    keys.lanes[static_cast<std::size_t>(lane)] = NO_KEY;
+    return keys;
+}
+inline bool isAnyKeyLeft(const Ints& keys) {
+    return least(keys) != NO_KEY;
+}
+
+inline Mask topBits(const std::uint32_t* numbers) {
+    return maskOf([&](std::size_t i) { return numbers[i] >> 31 != 0; });
+}
+inline void storeChosen(std::uint32_t* target, Mask mask, const std::uint32_t* numbers) {
+    for (; mask != 0; mask &= mask - 1)
+        *target++ = numbers[std::countr_zero(mask)];
+}
+
+}  // namespace bwfirt::wide
