@@ -122,8 +122,9 @@ class Builder {
     Node* cutOffEmptySpace(Node* node, Range& range) {
         const Floats4 below = range.bounds.low - range.interval.low;
         const Floats4 above = range.interval.high - range.bounds.high;
-        Floats4 empty = max(below, above);
-        where(empty <= MUCH_EMPTY_SPACE * (range.interval.high - range.interval.low), empty) = 0;
+        const Floats4 larger = max(below, above);
+        const Floats4 enough = MUCH_EMPTY_SPACE * (range.interval.high - range.interval.low);
+        const Floats4 empty([&](auto i) { return larger[i] > enough[i] ? larger[i] : 0.0F; });
         if (none_of(empty > 0))
             return node;
 

@@ -106,13 +106,12 @@ class Qbvh : public RTKernel {
     /// are. Their number can be predicted now and then; their order cannot, and no branch depends
     /// on it.
     [[gnu::always_inline]] static std::size_t pushNearestLast(const Node& node,
-                                                              BoxRay::Intervals intervals,
+                                                              const BoxRay::Intervals& intervals,
                                                               Entry* top) {
         const auto areMet = intervals.areMet();
         const auto count = static_cast<std::size_t>(popcount(areMet));
         if (count == 0)
             return 0;
-        where(!areMet, intervals.enter) = -1;
         std::array<float, Node::WIDTH> enter;
         intervals.enter.copy_to(enter.data(), std::experimental::element_aligned);
         const auto entry = [&](std::size_t i) { return Entry{node.children[i], enter[i]}; };
@@ -128,6 +127,8 @@ class Qbvh : public RTKernel {
             top[1 - nearer] = entry(last);
             return count;
         }
+        for (std::size_t i = 0; i < Node::WIDTH; ++i)
+            enter[i] = areMet[i] ? enter[i] : -1;
         std::array<std::size_t, Node::WIDTH> fartherOnes{};
         for (std::size_t i = 1; i < Node::WIDTH; ++i) {
             for (std::size_t j = 0; j < i; ++j) {

@@ -72,9 +72,10 @@ class Binning {
 
     /// The bins of a box along each of the axes.
     Ints4 binsOf(const Box& box) const {
-        Floats4 position = (box.centre() - low_) * scale_;
-        where(!(position > 0), position) = 0;  // NaN too: all centres may be the same
-        return static_simd_cast<Ints4>(min(position, Floats4(static_cast<float>(count_ - 1))));
+        const Floats4 position = (box.centre() - low_) * scale_;
+        const Floats4 last(static_cast<float>(count_ - 1));
+        // A NaN becomes 0, too: all centres may be the same.
+        return static_simd_cast<Ints4>(min(max(position, Floats4(0)), last));
     }
 
     /// A leaf of up to four triangles takes the time of one. An empty part is no split.

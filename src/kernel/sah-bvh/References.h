@@ -25,7 +25,7 @@ class Reference {
     Box box() const {
         // The bits of an index are a tiny number, with which processors compute slowly.
         Box box = box_;
-        where(Floats4([](int i) { return i; }) == 3, box.low) = 0;
+        box.low = Floats4([&](auto i) { return i < 3 ? box_.low[i] : 0.0F; });
         return box;
     }
 
