@@ -13,8 +13,9 @@ from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
-from metrics import (BYTES_PER_TRIANGLE, FINAL, INITIALIZE, OVERALL, PEAK, RATE, RATE_H, RATE_MIXED,
-                     RATE_V, SQUARED_ERROR, TOTAL, Measured, Metric, Spread)
+from metrics import (BYTES_PER_TRIANGLE, FINAL, INITIALIZE, OVERALL, PEAK, RATE, RATE_H,
+                     RATE_IN_FLIGHT, RATE_MIXED, RATE_V, SQUARED_ERROR, TOTAL, Measured, Metric,
+                     Spread)
 from process import end_with_parent
 
 matplotlib.use('Agg')
@@ -165,7 +166,8 @@ def initialisation(measured: Measured, scene: str) -> Figure | None:
 
 
 def ray_rates(measured: Measured, scene: str) -> Figure | None:
-    return _bar_chart(measured, scene, [RATE, RATE_H, RATE_V, RATE_MIXED], 'Rays per second',
+    rates = [RATE, RATE_H, RATE_V, RATE_MIXED, RATE_IN_FLIGHT]
+    return _bar_chart(measured, scene, rates, 'Rays per second',
                       'million per second')
 
 

@@ -48,6 +48,8 @@ RATE = Metric('rate', 'Rays, gross', 'Mrays/s', 'up', RENDER,
 RATE_H = Metric('h', 'h, replayed', 'Mrays/s', 'up', REPLAY, replayed('intersect'))
 RATE_V = Metric('V', 'V, replayed', 'Mrays/s', 'up', REPLAY, replayed('visibility'))
 RATE_MIXED = Metric('mixed', 'h and V, replayed', 'Mrays/s', 'up', REPLAY, replayed('mixed'))
+RATE_IN_FLIGHT = Metric('in_flight', 'h and V in flight, replayed', 'Mrays/s', 'up', REPLAY,
+                        replayed('mixed_in_flight'))
 PEAK = Metric('peak', 'Kernel memory, peak', 'MB', 'down', RENDER,
               megabytes('kernel_peak_bytes'), is_exact=True)
 FINAL = Metric('final', 'Kernel memory, final', 'MB', 'down', RENDER,
@@ -57,9 +59,10 @@ BYTES_PER_TRIANGLE = Metric(
     lambda report: [report['memory']['kernel_final_bytes'] / report['triangles']], is_exact=True)
 SQUARED_ERROR = Metric('squared_error', 'Squared error of the average intensity', '', 'down',
                        RENDER, lambda report: [report['squared_error']], is_exact=True)
-METRICS = [TOTAL, INITIALIZE, RENDERING, RATE, RATE_H, RATE_V, RATE_MIXED, PEAK, FINAL,
-           BYTES_PER_TRIANGLE, SQUARED_ERROR]
-OVERALL = [TOTAL, INITIALIZE, RATE, RATE_H, RATE_V, RATE_MIXED, PEAK, FINAL]  # in means over scenes
+METRICS = [TOTAL, INITIALIZE, RENDERING, RATE, RATE_H, RATE_V, RATE_MIXED, RATE_IN_FLIGHT, PEAK,
+           FINAL, BYTES_PER_TRIANGLE, SQUARED_ERROR]
+# Those in means over scenes.
+OVERALL = [TOTAL, INITIALIZE, RATE, RATE_H, RATE_V, RATE_MIXED, RATE_IN_FLIGHT, PEAK, FINAL]
 
 
 @dataclass(frozen=True)
@@ -156,12 +159,17 @@ class Measured:
                        if (spread := spread_of(metric, of_one))), key=lambda point: point[0])
 
     def wrong_per_million(self, scene: str, kernel: str) -> float | None:
-        """Wrong answers in a million questions of the scene's ray stream; None if not replayed."""
+        """Wrong answers in a million questions of the scene's ray stream; None if not replayed.
+
+        Asked alone or in flight, whichever has more of them.
+        """
         replay = self.first(scene, kernel, REPLAY)
         if replay is None:
             return None
-        counts = replay.report['replay']['answers_per_million']
-        return sum(counts[name] for name in WRONG_ANSWERS)
+        report = replay.report['replay']
+        wrong = max(sum(report[answers][name] for name in WRONG_ANSWERS)
+                    for answers in ['answers', 'answers_in_flight'])
+        return 1e6 * wrong / sum(report['rays'].values())
 
     def is_right(self, scene: str, kernel: str) -> bool:
         """Whether nothing is known against its answers, as wrong ones or a replay that failed.

@@ -20,9 +20,9 @@ TEXTS = [f'program.{key}' for key in ['version', 'commit', 'compiler', 'flags', 
 NUMBERS = ['triangles', 'width', 'height', 'passes', 'time.render_s', 'memory.kernel_leaked_bytes',
            'memory.process_peak_bytes']
 COLOURS = ['average_intensity', 'standard_error', 'reference_average_intensity']
-REPLAYED = ['replay.rays.intersect', 'replay.rays.visibility',
+REPLAYED = ['replay.rays.intersect', 'replay.rays.visibility', 'replay.in_flight',
             'replay.answers.max_relative_distance_error',
-            *(f'replay.{counts}.{name}' for counts in ['answers', 'answers_per_million']
+            *(f'replay.{answers}.{name}' for answers in ['answers', 'answers_in_flight']
               for name in ANSWERS)]
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from doubts import failures, percent
 from figures import ppm_wrong, short, si
 from metrics import (ANSWERS, BYTES_PER_TRIANGLE, FINAL, INITIALIZE, OVERALL, PEAK, RATE, RATE_H,
-                     RATE_MIXED, RATE_V, RENDERING, TOTAL, Measured, Metric, Report)
+                     RATE_IN_FLIGHT, RATE_MIXED, RATE_V, RENDERING, TOTAL, Measured, Metric, Report)
 from plan import CONTROL, RECORD, REPLAY
 
 
@@ -91,8 +91,9 @@ def kernels(measured: Measured) -> Table:
         return [Cell(kernel), *(mean(metric, kernel) for metric in OVERALL),
                 number(max(wrong), si(max(wrong))) if wrong else Cell('not checked'),
                 number(count, str(count))]
-    names = {RATE: 'rays', RATE_H: 'h', RATE_V: 'V', RATE_MIXED: 'h and V', TOTAL: 'total time',
-             INITIALIZE: 'initialise', PEAK: 'peak mem.', FINAL: 'final mem.'}
+    names = {RATE: 'rays', RATE_H: 'h', RATE_V: 'V', RATE_MIXED: 'h and V',
+             RATE_IN_FLIGHT: 'in flight', TOTAL: 'total time', INITIALIZE: 'initialise',
+             PEAK: 'peak mem.', FINAL: 'final mem.'}
     return Table(f'Geometric means over the scenes, relative to {measured.reference}',
                  ['kernel', *(names[metric] for metric in OVERALL), 'wrong ppm', 'failures'],
                  [row(kernel) for kernel in measured.kernels],
@@ -108,7 +109,8 @@ def failure_table(measured: Measured) -> Table:
 
 def times(measured: Measured, scene: str) -> Table:
     metrics = {INITIALIZE: 'initialise s', RENDERING: 'render s', TOTAL: 'total s',
-               RATE: 'Mrays/s, gross', RATE_MIXED: 'Mrays/s, replayed'}
+               RATE: 'Mrays/s, gross', RATE_MIXED: 'Mrays/s, replayed',
+               RATE_IN_FLIGHT: 'in flight'}
     rows = [[Cell(kernel), *(figure_cell(measured, metric, scene, kernel, with_range=True)
                              for metric in metrics)] for kernel in measured.kernels]
     return Table('Times and rates: medians (lowest\u2013highest)', ['kernel', *metrics.values()],

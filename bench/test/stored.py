@@ -107,7 +107,8 @@ def replay_report(kernel: str, *, scene: str = 'box', rate: float = 20, threads:
     counts: dict[str, float] = {name: (answers or {}).get(name, 0) for name in DIFFERENCES}
     asked = 1_000_000
     rates = {f'{what}_per_second': [1e6 * rate * factor * drift for drift in (0.99, 1, 1.01)]
-             for what, factor in [('intersect', 1), ('visibility', 2), ('mixed', 1.25)]}
+             for what, factor in [('intersect', 1), ('visibility', 2), ('mixed', 1.25),
+                                  ('mixed_in_flight', 1.5)]}
     report = render_report(kernel, scene=scene, rate=1.25 * rate, threads=threads,
                            triangles=triangles)
     return changed(report, {
@@ -117,10 +118,11 @@ def replay_report(kernel: str, *, scene: str = 'box', rate: float = 20, threads:
             'recorded_by': RECORDER, 'seconds_per_measurement': 1,
             'rays': {'intersect': asked * 6 // 10, 'visibility': asked * 4 // 10},
             **{name: values[1] for name, values in rates.items()},
-            'measurements': rates,
+            'in_flight': 16, 'measurements': rates,
             'by_bounce': [{'first': 0, 'last': 0, 'intersect': asked * 6 // 10,
                            'visibility': asked * 4 // 10, 'mixed_per_second': 1.25e6 * rate}],
             'answers': counts | {'max_relative_distance_error': 1e-7},
+            'answers_in_flight': counts | {'max_relative_distance_error': 1e-7},
             'answers_per_million': {name: 1e6 * count / asked for name, count in counts.items()},
             'examples': {},
         }})

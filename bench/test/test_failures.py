@@ -248,12 +248,12 @@ def test_a_failed_replay_is_a_row_and_costs_the_rank(wrong: Bench) -> None:
 ODD_REPLAYS = {
     'no-answers': 'del report["replay"]["answers"]',
     'no-missed': 'del report["replay"]["answers"]["missed"]',
-    'no-per-million': 'del report["replay"]["answers_per_million"]',
+    'no-answers-in-flight': 'del report["replay"]["answers_in_flight"]',
     'no-questions': 'del report["replay"]["rays"]',
     'no-recorder': 'del report["replay"]["recorded_by"]',
     'no-measurements': 'report["replay"]["measurements"]["mixed_per_second"] = []',
     'null-distance': 'report["replay"]["answers"]["max_relative_distance_error"] = None',
-    'nan-ghosts': 'report["replay"]["answers_per_million"]["ghost"] = float("nan")',
+    'nan-ghosts': 'report["replay"]["answers_in_flight"]["ghost"] = float("nan")',
     'word-ghosts': 'report["replay"]["answers"]["ghost"] = "none"',
 }
 

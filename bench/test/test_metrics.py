@@ -48,14 +48,14 @@ def test_metrics_take_their_figures_from_the_reports(tmp_path: Path) -> None:
               'rays.per_second': 12.5e6, 'memory.kernel_peak_bytes': 3_000_000,
               'memory.kernel_final_bytes': 500_000, 'triangles': 2000, 'squared_error': 0.25}
     rates = {'intersect_per_second': [1e6, 3e6], 'visibility_per_second': [4e6],
-             'mixed_per_second': [2e6, 2.5e6, 9e6]}
+             'mixed_per_second': [2e6, 2.5e6, 9e6], 'mixed_in_flight_per_second': [7e6]}
     stored.run('box', 'a', report=report)
     stored.run('box', 'a', REPLAY, report={'replay.measurements': rates})
     measured = stored.measured()
     values = {metric.key: measured.median(metric, 'box', 'a') for metric in METRICS}
     assert values == {'total': 10, 'initialize': 2, 'render': 8, 'rate': 12.5, 'h': 2, 'V': 4,
-                      'mixed': 2.5, 'peak': 3, 'final': 0.5, 'bytes_per_triangle': 250,
-                      'squared_error': 0.25}
+                      'mixed': 2.5, 'in_flight': 7, 'peak': 3, 'final': 0.5,
+                      'bytes_per_triangle': 250, 'squared_error': 0.25}
 
 
 def test_each_repeat_is_a_sample_and_no_other_run_is(tmp_path: Path) -> None:

@@ -72,7 +72,7 @@ def test_no_speed_of_a_wrong_kernel_is_without_its_errors(measured: Measured) ->
 
 def test_a_wrong_kernel_has_no_means_and_no_break_even(measured: Measured) -> None:
     liar = texts(row(tables.kernels(measured), 'liar'))
-    assert liar == ['liar', *['\u2013'] * 8, '42', '1']
+    assert liar == ['liar', *['\u2013'] * 9, '42', '1']
     columns = tables.break_even(measured).columns
     assert row(tables.break_even(measured), 'box')[columns.index('liar')].text == '\u2013'
 

@@ -73,14 +73,14 @@ void warnOfShortMeasurements(const ReplayResult& result, RunReport& report) {
     report.warnings.push_back(text);
 }
 
-void warnOfErrors(const ReplayAnswers& answers, RunReport& report) {
+void warnOfErrors(const char* what, const ReplayAnswers& answers, RunReport& report) {
     std::string errors;
     for (std::size_t kind = 0; kind < answers.counts.size(); ++kind)
         if (answers.counts[kind] > 0 && static_cast<Difference>(kind) != Difference::TIE)
             errors += (errors.empty() ? "" : ", ") + std::string(DIFFERENCE_NAMES[kind]) + " " +
                       std::to_string(answers.counts[kind]);
     if (!errors.empty())
-        report.warnings.push_back("answers differ from the recorded ones: " + errors);
+        report.warnings.push_back(what + (" differ from the recorded ones: " + errors));
 }
 
 }  // namespace
@@ -104,16 +104,18 @@ void runReplay(const Settings& settings, std::unique_ptr<RTKernel> kernel) {
     run.measureKernelMemory();
 
     RunReport& report = run.report;
-    const ReplayResult result = Replay(run.kernel(), stream, settings.threads, settings.inFlight,
-                                       settings.secondsPerMeasurement)
-                                    .run();
+    const int inFlight = settings.inFlight == 1 ? Replay::IN_FLIGHT : settings.inFlight;
+    const ReplayResult result =
+        Replay(run.kernel(), stream, settings.threads, inFlight, settings.secondsPerMeasurement)
+            .run();
     report.rays = result.counts;
     report.secondsRender = static_cast<double>(stream.records.size()) / result.mixed.perSecond;
     constexpr double UNKNOWN = std::numeric_limits<double>::quiet_NaN();
     report.averageIntensity = report.standardError = V3d(UNKNOWN);
     report.replay = result;
     warnOfShortMeasurements(result, report);
-    warnOfErrors(result.answers, report);
+    warnOfErrors("answers", result.answers, report);
+    warnOfErrors("answers with many rays in flight", result.answersInFlight, report);
     const std::string examples = describeExamples(stream, result.answers, run.kernel());
     run.finish();
     std::cout << examples << std::flush;

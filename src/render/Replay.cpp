@@ -56,10 +56,12 @@ struct Questions {
     explicit Questions(std::span<const RayRecord> records) : mixed(records) {
         for (const RayRecord& record : records) {
             before.push_back({rays.size(), segments.size()});
-            if (record.question == RayRecord::INTERSECT)
+            if (record.question == RayRecord::INTERSECT) {
+                placeOfRay.push_back(before.size() - 1);
                 rays.push_back(record.ray());
-            else
+            } else {
                 segments.push_back({record.a, record.b});
+            }
         }
         before.push_back({rays.size(), segments.size()});
     }
@@ -67,34 +69,27 @@ struct Questions {
     std::span<const RayRecord> mixed;
     std::vector<Ray> rays;
     std::vector<RTKernel::Segment> segments;
-    std::vector<RayCounts> before;  ///< each of `mixed`, and its end
+    std::vector<RayCounts> before;        ///< each of `mixed`, and its end
+    std::vector<std::size_t> placeOfRay;  ///< of each ray in `mixed`
 };
 
-/// Asks the questions from `begin` to `end` and forgets the answers.
-class Asker {
-  public:
-    virtual ~Asker() = default;
-    virtual void intersect(std::size_t begin, std::size_t end) const = 0;
-    virtual void visibility(std::size_t begin, std::size_t end) const = 0;
-    virtual void mixed(std::size_t begin, std::size_t end) const = 0;
-};
-
-class OneByOne : public Asker {
+/// Asks the questions from `begin` to `end`, one by one, and forgets the answers.
+class OneByOne {
   public:
     OneByOne(const RTKernel& kernel, const Questions& questions)
         : kernel_(kernel), questions_(questions) {}
 
-    void intersect(std::size_t begin, std::size_t end) const override {
+    void intersect(std::size_t begin, std::size_t end) const {
         for (std::size_t i = begin; i < end; ++i)
             kernel_.kernelIntersectGeometry(questions_.rays[i]);
     }
 
-    void visibility(std::size_t begin, std::size_t end) const override {
+    void visibility(std::size_t begin, std::size_t end) const {
         for (std::size_t i = begin; i < end; ++i)
             kernel_.kernelVisibility(questions_.segments[i].x, questions_.segments[i].y);
     }
 
-    void mixed(std::size_t begin, std::size_t end) const override {
+    void mixed(std::size_t begin, std::size_t end) const {
         for (const RayRecord& record : questions_.mixed.subspan(begin, end - begin)) {
             if (record.question == RayRecord::INTERSECT)
                 kernel_.kernelIntersectGeometry(record.ray());
@@ -108,35 +103,31 @@ class OneByOne : public Asker {
     const Questions& questions_;
 };
 
-class InFlight : public Asker {
+/// Asks them many at a time.
+class InFlight {
   public:
     InFlight(const RTKernel& kernel, const Questions& questions, int inFlight)
         : kernel_(kernel), questions_(questions), size_(static_cast<std::size_t>(inFlight)) {}
 
-    void intersect(std::size_t begin, std::size_t end) const override {
-        std::array<std::optional<Hit>, PathTracer::MAX_IN_FLIGHT> hits;
+    /// As the renderer asks: of so many paths first h, then the questions V between those.
+    void mixed(std::size_t begin, std::size_t end) const {
         const std::span rays(questions_.rays);
-        for (std::size_t i = begin; i < end; i += size_) {
-            const std::size_t count = std::min(size_, end - i);
-            kernel_.kernelIntersectMany(rays.subspan(i, count), {hits.data(), count});
-        }
-    }
-
-    void visibility(std::size_t begin, std::size_t end) const override {
-        std::array<bool, PathTracer::MAX_IN_FLIGHT> visible;
         const std::span segments(questions_.segments);
-        for (std::size_t i = begin; i < end; i += size_) {
-            const std::size_t count = std::min(size_, end - i);
-            kernel_.kernelVisibleMany(segments.subspan(i, count), {visible.data(), count});
-        }
-    }
-
-    void mixed(std::size_t begin, std::size_t end) const override {
-        for (std::size_t i = begin; i < end; i += 2 * size_) {
-            const RayCounts& first = questions_.before[i];
-            const RayCounts& last = questions_.before[std::min(i + 2 * size_, end)];
-            intersect(first.intersect, last.intersect);
-            visibility(first.visibility, last.visibility);
+        std::vector<std::optional<Hit>> hits(size_);
+        const auto visible = std::make_unique<bool[]>(size_);
+        const std::size_t lastRay = questions_.before[end].intersect;
+        for (std::size_t i = begin; i < end;) {
+            auto [ray, segment] = questions_.before[i];
+            const std::size_t count = std::min(size_, lastRay - ray);
+            kernel_.kernelIntersectMany(rays.subspan(ray, count), std::span(hits).first(count));
+            ray += count;
+            i = ray < lastRay ? questions_.placeOfRay[ray] : end;
+            while (segment < questions_.before[i].visibility) {
+                const std::size_t among =
+                    std::min<std::size_t>(size_, questions_.before[i].visibility - segment);
+                kernel_.kernelVisibleMany(segments.subspan(segment, among), {visible.get(), among});
+                segment += among;
+            }
         }
     }
 
@@ -146,27 +137,21 @@ class InFlight : public Asker {
     std::size_t size_;
 };
 
-std::unique_ptr<Asker> makeAsker(const RTKernel& kernel, const Questions& questions, int inFlight) {
-    if (inFlight == 1)
-        return std::make_unique<OneByOne>(kernel, questions);
-    return std::make_unique<InFlight>(kernel, questions, inFlight);
-}
-
 }  // namespace
 
-ReplayAnswers Replay::compareAnswers() const {
+ReplayAnswers Replay::compareAnswers(int inFlight) const {
     const Questions questions(stream_.records);
     const std::span rays(questions.rays);
     const std::span segments(questions.segments);
     std::vector<std::optional<Hit>> hits(rays.size());
     const auto visible = std::make_unique<bool[]>(segments.size());
-    if (inFlight_ == 1) {
+    if (inFlight == 1) {
         for (std::size_t i = 0; i < rays.size(); ++i)
             hits[i] = kernel_.kernelIntersectGeometry(rays[i]);
         for (std::size_t i = 0; i < segments.size(); ++i)
             visible[i] = kernel_.kernelVisibility(segments[i].x, segments[i].y);
     } else {
-        const auto size = static_cast<std::size_t>(inFlight_);
+        const auto size = static_cast<std::size_t>(inFlight);
         for (std::size_t i = 0; i < rays.size(); i += size) {
             const std::size_t count = std::min(size, rays.size() - i);
             kernel_.kernelIntersectMany(rays.subspan(i, count), {hits.data() + i, count});
@@ -211,13 +196,17 @@ ReplayResult Replay::run() const {
     result.counts = stream_.counts;
     {
         const Questions all(stream_.records);
-        const auto asker = makeAsker(kernel_, all, inFlight_);
+        const OneByOne oneByOne(kernel_, all);
+        const InFlight inFlight(kernel_, all, inFlight_);
         result.intersect = measure(all.rays.size(), threads_, secondsPerMeasurement_,
-                                   [&](auto begin, auto end) { asker->intersect(begin, end); });
+                                   [&](auto begin, auto end) { oneByOne.intersect(begin, end); });
         result.visibility = measure(all.segments.size(), threads_, secondsPerMeasurement_,
-                                    [&](auto begin, auto end) { asker->visibility(begin, end); });
+                                    [&](auto begin, auto end) { oneByOne.visibility(begin, end); });
         result.mixed = measure(all.mixed.size(), threads_, secondsPerMeasurement_,
-                               [&](auto begin, auto end) { asker->mixed(begin, end); });
+                               [&](auto begin, auto end) { oneByOne.mixed(begin, end); });
+        result.inFlight = inFlight_;
+        result.mixedInFlight = measure(all.mixed.size(), threads_, secondsPerMeasurement_,
+                                       [&](auto begin, auto end) { inFlight.mixed(begin, end); });
     }
     for (const Bounces& bounces : BOUNCES) {
         std::vector<RayRecord> records;
@@ -226,14 +215,15 @@ ReplayResult Replay::run() const {
                          return record.bounce >= bounces.first && record.bounce <= bounces.last;
                      });
         const Questions some(records);
-        const auto asker = makeAsker(kernel_, some, inFlight_);
+        const OneByOne asker(kernel_, some);
         result.byBounce.push_back(
             {bounces,
              {some.rays.size(), some.segments.size()},
              measure(records.size(), threads_, secondsPerMeasurement_,
-                     [&](auto begin, auto end) { asker->mixed(begin, end); })});
+                     [&](auto begin, auto end) { asker.mixed(begin, end); })});
     }
-    result.answers = compareAnswers();
+    result.answers = compareAnswers(1);
+    result.answersInFlight = compareAnswers(inFlight_);
     return result;
 }
 

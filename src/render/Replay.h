@@ -43,11 +43,14 @@ struct ReplayResult {
     std::string recordedBy;            ///< a kernel
     double secondsPerMeasurement = 0;  ///< that each measurement takes at least
     RayCounts counts;
-    Rate intersect;   ///< h alone
-    Rate visibility;  ///< V alone
-    Rate mixed;       ///< h and V in the recorded order
+    Rate intersect;      ///< h alone
+    Rate visibility;     ///< V alone
+    Rate mixed;          ///< h and V in the recorded order
+    int inFlight = 0;    ///< questions at once for the next rate
+    Rate mixedInFlight;  ///< h and V, many questions at once
     std::vector<BounceRate> byBounce;
-    ReplayAnswers answers;
+    ReplayAnswers answers;          ///< to single questions
+    ReplayAnswers answersInFlight;  ///< to many questions at once
 };
 
 /// Asks a kernel the questions of a stream, without the renderer.
@@ -56,8 +59,11 @@ class Replay {
     /// Shorter measurements tell more of the machine's noise than of a kernel.
     static constexpr double SECONDS_PER_MEASUREMENT = 1;
 
-    /// @param inFlight 1 asks question by question. A larger number asks for so many at once: for
-    ///        `mixed` each 2 * inFlight questions in a row, first those of h, then those of V.
+    /// Questions at once where the user has not said how many.
+    static constexpr int IN_FLIGHT = 16;
+
+    /// @param inFlight 1 or more questions at once for mixedInFlight and answersInFlight; all other
+    ///        rates and answers are those of single questions
     /// @param secondsPerMeasurement that each measurement of a rate takes at least
     Replay(const RTKernel& kernel, const RayStream& stream, int threads, int inFlight,
            double secondsPerMeasurement = SECONDS_PER_MEASUREMENT)
@@ -67,11 +73,12 @@ class Replay {
           inFlight_(inFlight),
           secondsPerMeasurement_(secondsPerMeasurement) {}
 
-    /// All rates, then all answers. Takes the time of about 25 measurements, longer where a sweep
+    /// All rates, then all answers. Takes the time of about 28 measurements, longer where a sweep
     /// of the stream takes longer than one of them should.
     ReplayResult run() const;
 
-    ReplayAnswers compareAnswers() const;
+    /// @param inFlight 1 or more questions at once
+    ReplayAnswers compareAnswers(int inFlight) const;
 
   private:
     const RTKernel& kernel_;

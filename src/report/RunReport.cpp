@@ -28,6 +28,14 @@ Json options(const std::vector<KernelOption>& set) {
     return object;
 }
 
+Json answersAsJson(const ReplayAnswers& answers) {
+    Json json;
+    for (std::size_t kind = 0; kind < DIFFERENCE_NAMES.size(); ++kind)
+        json[DIFFERENCE_NAMES[kind]] = answers.counts[kind];
+    json["max_relative_distance_error"] = answers.maxRelativeDistanceError;
+    return json;
+}
+
 Json replayAsJson(const ReplayResult& replay) {
     Json bounces = Json::array();
     for (const BounceRate& bounce : replay.byBounce)
@@ -38,15 +46,13 @@ Json replayAsJson(const ReplayResult& replay) {
                            {"mixed_per_second", bounce.mixed.perSecond}});
     const ReplayAnswers& answers = replay.answers;
     const auto rays = static_cast<double>(replay.counts.intersect + replay.counts.visibility);
-    Json counts, perMillion, examples;
+    Json perMillion, examples;
     for (std::size_t kind = 0; kind < DIFFERENCE_NAMES.size(); ++kind) {
         const char* name = DIFFERENCE_NAMES[kind];
-        counts[name] = answers.counts[kind];
         perMillion[name] = static_cast<double>(answers.counts[kind]) / rays * 1e6;
         if (!answers.examples[kind].empty())
             examples[name] = answers.examples[kind];
     }
-    counts["max_relative_distance_error"] = answers.maxRelativeDistanceError;
     Json json = {
         {"recorded_by", replay.recordedBy},
         {"seconds_per_measurement", replay.secondsPerMeasurement},
@@ -55,12 +61,16 @@ Json replayAsJson(const ReplayResult& replay) {
         {"intersect_per_second", replay.intersect.perSecond},
         {"visibility_per_second", replay.visibility.perSecond},
         {"mixed_per_second", replay.mixed.perSecond},
+        {"in_flight", replay.inFlight},
+        {"mixed_in_flight_per_second", replay.mixedInFlight.perSecond},
         {"measurements",
          {{"intersect_per_second", replay.intersect.measurements},
           {"visibility_per_second", replay.visibility.measurements},
-          {"mixed_per_second", replay.mixed.measurements}}},
+          {"mixed_per_second", replay.mixed.measurements},
+          {"mixed_in_flight_per_second", replay.mixedInFlight.measurements}}},
         {"by_bounce", bounces},
-        {"answers", counts},
+        {"answers", answersAsJson(answers)},
+        {"answers_in_flight", answersAsJson(replay.answersInFlight)},
         {"answers_per_million", perMillion},
         {"examples", examples.is_null() ? Json::object() : examples},
     };

@@ -3,10 +3,63 @@
 
 namespace bwfirt::test {
 
+namespace {
+
+/// Asks a kernel each question twice, alone and as one of many, and wants the same answer.
+class InBothModes : public RTKernel {
+  public:
+    explicit InBothModes(std::unique_ptr<RTKernel> kernel) : kernel_(std::move(kernel)) {}
+
+    void kernelInitialize(std::span<const Triangle> triangles) override {
+        kernel_->kernelInitialize(triangles);
+    }
+
+    std::optional<Hit> kernelIntersectGeometry(const Ray& ray) const override {
+        const std::optional<Hit> hit = kernel_->kernelIntersectGeometry(ray);
+        std::optional<Hit> inFlight;
+        kernel_->kernelIntersectMany({&ray, 1}, {&inFlight, 1});
+        if (!areSame(hit, inFlight))
+            ADD_FAILURE() << "another hit in flight: from " << ray.origin << " along "
+                          << ray.direction;
+        return hit;
+    }
+
+    bool kernelVisibility(const V3f& x, const V3f& y) const override {
+        const bool isVisible = kernel_->kernelVisibility(x, y);
+        const Segment segment{x, y};
+        bool isVisibleInFlight = !isVisible;
+        kernel_->kernelVisibleMany({&segment, 1}, {&isVisibleInFlight, 1});
+        if (isVisible != isVisibleInFlight)
+            ADD_FAILURE() << "another visibility in flight: between " << x << " and " << y;
+        return isVisible;
+    }
+
+    void kernelIntersectMany(std::span<const Ray> rays,
+                             std::span<std::optional<Hit>> hits) const override {
+        kernel_->kernelIntersectMany(rays, hits);
+    }
+
+    void kernelVisibleMany(std::span<const Segment> segments,
+                           std::span<bool> visible) const override {
+        kernel_->kernelVisibleMany(segments, visible);
+    }
+
+  private:
+    std::unique_ptr<RTKernel> kernel_;
+};
+
+}  // namespace
+
 std::unique_ptr<RTKernel> kernelFor(const Triangles& triangles) {
-    std::unique_ptr<RTKernel> kernel = createKernel();
+    auto kernel = std::make_unique<InBothModes>(createKernel());
     kernel->kernelInitialize(triangles);
     return kernel;
+}
+
+bool areSame(const std::optional<Hit>& one, const std::optional<Hit>& other) {
+    if (!one || !other)
+        return one.has_value() == other.has_value();
+    return one->distance == other->distance && one->triangle == other->triangle;
 }
 
 Ray towards(const V3f& origin, const V3f& target) {

@@ -17,9 +17,12 @@ namespace bwfirt::test {
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 
-/// The kernel, ready for queries. The triangles have to outlive it.
+/// The kernel, ready for queries. The triangles have to outlive it. Each question that it is asked
+/// alone it is also asked in flight, and the test fails where the answers differ.
 std::unique_ptr<RTKernel> kernelFor(const Triangles& triangles);
 std::unique_ptr<RTKernel> kernelFor(Triangles&& triangles) = delete;
+
+bool areSame(const std::optional<Hit>& one, const std::optional<Hit>& other);
 
 /// The ray from the origin through the target.
 Ray towards(const V3f& origin, const V3f& target);

@@ -4,12 +4,6 @@
 namespace bwfirt::test {
 namespace {
 
-bool areSame(const std::optional<Hit>& one, const std::optional<Hit>& other) {
-    if (!one || !other)
-        return one.has_value() == other.has_value();
-    return one->distance == other->distance && one->triangle == other->triangle;
-}
-
 TEST(Threads, ManyThreadsGetTheAnswersOfOne) {
     std::mt19937 random(9);
     const Triangles triangles = soup(500, 0.3, random);

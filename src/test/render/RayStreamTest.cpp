@@ -150,7 +150,7 @@ TEST_F(RayStreams, AreRefusedWhenAnyByteIsDamagedOrMissing) {
 class Answers : public RayStreams, public testing::WithParamInterface<int> {
   protected:
     std::uint64_t count(const Altered& kernel, Difference difference) const {
-        const ReplayAnswers answers = Replay(kernel, stream_, 2, GetParam()).compareAnswers();
+        const ReplayAnswers answers = Replay(kernel, stream_, 2, 1).compareAnswers(GetParam());
         std::uint64_t others = 0;
         for (std::size_t kind = 0; kind < answers.counts.size(); ++kind)
             others += kind == static_cast<std::size_t>(difference) ? 0 : answers.counts[kind];
@@ -168,7 +168,7 @@ class Answers : public RayStreams, public testing::WithParamInterface<int> {
 };
 
 TEST_P(Answers, OfTheRecorderAreTheRecordedOnes) {
-    const ReplayAnswers answers = Replay(*kernel_, stream_, 2, GetParam()).compareAnswers();
+    const ReplayAnswers answers = Replay(*kernel_, stream_, 2, 1).compareAnswers(GetParam());
     EXPECT_EQ(answers.counts, decltype(answers.counts){});
     EXPECT_EQ(answers.maxRelativeDistanceError, 0);
 }
@@ -211,7 +211,7 @@ TEST_P(Answers, AreAsFarOffAsTheirWorstDistance) {
         hit->distance *= ++asked == 5 ? 1.25F : 1.0F;
         return hit;
     };
-    const ReplayAnswers answers = Replay(kernel, stream_, 1, GetParam()).compareAnswers();
+    const ReplayAnswers answers = Replay(kernel, stream_, 1, 1).compareAnswers(GetParam());
     EXPECT_NEAR(answers.maxRelativeDistanceError, 0.25, 1e-6);
 }
 
@@ -220,7 +220,9 @@ using Rates = Answers;
 TEST_P(Rates, AreMedianMeasurementsOfTheLengthThatWasAskedFor) {
     const ReplayResult result = Replay(*kernel_, stream_, 2, GetParam(), 0.01).run();
     EXPECT_EQ(result.secondsPerMeasurement, 0.01);
-    std::vector<Rate> rates = {result.intersect, result.visibility, result.mixed};
+    std::vector<Rate> rates = {result.intersect, result.visibility, result.mixed,
+                               result.mixedInFlight};
+    EXPECT_EQ(result.inFlight, GetParam());
     for (const BounceRate& bounce : result.byBounce)
         rates.push_back(bounce.mixed);
     for (const Rate& rate : rates) {
@@ -244,10 +246,11 @@ TEST_P(Rates, AreMeasuredInWholeSweeps) {
     kernel.alterHit = [&](auto hit) { return ++raysAsked, hit; };
     kernel.alterVisible = [&](bool visible) { return ++segmentsAsked, visible; };
     Replay(kernel, stream_, 1, GetParam(), 0.01).run();
-    // One of h or V alone, two of both: warm-up and three measurements each. Then the answers.
-    EXPECT_GE(raysAsked, 13 * rays);
+    // One of h or V alone, three of both: warm-up and three measurements each. Then the answers,
+    // in both modes.
+    EXPECT_GE(raysAsked, 18 * rays);
     EXPECT_EQ(raysAsked % rays, 0);
-    EXPECT_GE(segmentsAsked, 13 * segments);
+    EXPECT_GE(segmentsAsked, 18 * segments);
     EXPECT_EQ(segmentsAsked % segments, 0);
 }
 
