@@ -5,10 +5,21 @@
 #include "math/Vector.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 
 namespace bwfirt {
+
+/// The axis along which a vector without negative components is longest; z, or else y, if several.
+/// It cannot be predicted, and a table needs no branch.
+template <typename Vector>
+int longestAxis(const Vector& length) {
+    constexpr std::array<int, 4> AXES = {2, 2, 1, 0};
+    const std::size_t isXAboveY = length.x > length.y ? 1 : 0;
+    const std::size_t isAboveZ = std::max(length.x, length.y) > length.z ? 2 : 0;
+    return AXES[isAboveZ | isXAboveY];
+}
 
 /// One triangle, where Number is double, or four of them, where it is Doubles4, as a ray sees them.
 template <typename Number>
@@ -39,8 +50,7 @@ class WatertightRay {
   public:
     WatertightRay(const V3d& origin, const V3d& direction)
         : origin_(origin), direction_(direction) {
-        const V3d size(std::abs(direction.x), std::abs(direction.y), std::abs(direction.z));
-        kz_ = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+        kz_ = longestAxis(V3d(std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)));
         kx_ = (kz_ + 1) % 3;
         ky_ = (kz_ + 2) % 3;
         shearX_ = direction[kx_] / direction[kz_];

@@ -57,15 +57,14 @@ class Builder {
             return;
         }
         const Children children = split(task);
-        const Task &below = children.below, &above = children.above;
-        tree_.nodes[task.node] = {task.box.bounds(), below.node, 0};
+        tree_.nodes[task.node] = {task.box.bounds(), children.below.node, 0};
         if (task.size() >= TASK_SIZE) {
-#pragma omp task firstprivate(below)
-            build(below);
+#pragma omp task firstprivate(children)
+            build(children.below);
         } else {
-            build(below);
+            build(children.below);
         }
-        build(above);
+        build(children.above);
     }
 
   private:

@@ -64,7 +64,7 @@ class NearestQuery {
     }
 
     /// Takes the nearest child of the last node that has any left. A key is less than the distance
-    /// that it stands for by its lowest bits.
+    /// that it stands for by its lowest bits. While a leaf is tested, the child after it is fetched.
     bool chooseNext() {
         std::int32_t key = least(keys_);
         while (key > std::bit_cast<std::int32_t>(tMax_)) {
@@ -77,6 +77,8 @@ class NearestQuery {
         const int lane = laneOf(key);
         keys_ = without(keys_, lane);
         next_ = node_->children[static_cast<std::size_t>(lane)];
+        if (Child::isLeaf(next_) && isAnyKeyLeft(keys_))
+            tree_.prefetch(node_->children[static_cast<std::size_t>(laneOf(least(keys_)))]);
         return true;
     }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "math/Vector.h"
+#include "kernel/WatertightRay.h"
 
 #include <algorithm>
 #include <array>
@@ -46,8 +46,7 @@ struct RayConstants {
             nearPlane[i] = i + (isBackwards ? 3 : 0);
             farPlane[i] = i + (isBackwards ? 0 : 3);
         }
-        const bool isXLonger = length.x > length.y;
-        z = std::max(length.x, length.y) > length.z ? (isXLonger ? 0 : 1) : 2;
+        z = longestAxis(length);
         x = z == 2 ? 0 : z + 1;
         y = z == 0 ? 2 : z - 1;
         originX = origin[x];

@@ -55,6 +55,10 @@ class VisibilityQuery {
         const Mask ofTwo = areTwo ? meet(two, constants_, 1).children : 0;
         push(two, ofTwo);
         push(one, ofOne);
+        if (leafCount_ > 1)
+            tree_.prefetch(leaves_[leafCount_ - 2]);
+        if (leafCount_ > 0 && nodeCount_ > 0)
+            tree_.prefetch(nodes_[nodeCount_ - 1]);
     }
 
     void push(const Node& node, Mask children) {
