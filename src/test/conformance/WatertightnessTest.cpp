@@ -8,7 +8,16 @@
 namespace bwfirt::test {
 namespace {
 
-constexpr std::size_t RAYS = 60000;  // of each class, at each mesh
+// Sanitizers look for errors of memory and races, and slow every ray down.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool IS_SANITIZED = true;
+#elif defined(__has_feature)
+constexpr bool IS_SANITIZED = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+constexpr bool IS_SANITIZED = false;
+#endif
+
+constexpr std::size_t RAYS = IS_SANITIZED ? 6000 : 60000;  // of each class, at each mesh
 
 const V3f CENTRE(11, -7, 3);
 
