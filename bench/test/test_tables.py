@@ -80,8 +80,8 @@ def test_a_wrong_kernel_has_no_means_and_no_break_even(measured: Measured) -> No
 def test_means_of_good_kernels(measured: Measured) -> None:
     cells = texts(row(tables.kernels(measured), 'simple-bvh'))
     assert cells[0] == 'simple-bvh'
-    assert cells[3:7] == ['0.5', '0.5', '0.5', '0.5']  # rays, h, V, h and V
-    assert cells[7:] == ['1', '1', '0', '0']           # memory, wrong answers, failures
+    assert cells[3:8] == ['0.5'] * 5          # rays, h, V, h and V, in flight
+    assert cells[8:] == ['1', '1', '0', '0']  # memory, wrong answers, failures
 
 
 def test_answers_table(measured: Measured) -> None:
