@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "kernel/Simd4.h"
 #include "scene/Triangle.h"
-
-#include <experimental/simd>
 
 #include <algorithm>
 #include <array>
@@ -11,9 +10,6 @@
 #include <span>
 
 namespace bwfirt {
-
-/// Four numbers that an instruction of the processor computes at once, where it has such.
-using Doubles4 = std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, 4>>;
 
 /// Four triangles side by side, to be tested together. Copying them in the order in which they are
 /// tested also saves the cache from fetching each of them from elsewhere.

@@ -182,19 +182,6 @@ class Builder {
     std::atomic<std::uint32_t> innerCount_ = 0;
 };
 
-template <typename T>
-Array<T> makeArray(std::size_t count) {
-    void* const memory = RTKernel::kernel_malloc(count * sizeof(T), alignof(T));
-    return Array<T>(static_cast<T*>(memory));
-}
-
-template <typename T>
-void shrink(Array<T>& array, std::size_t count) {
-    void* const memory = RTKernel::kernel_realloc(array.get(), count * sizeof(T));
-    static_cast<void>(array.release());
-    array.reset(static_cast<T*>(memory));
-}
-
 }  // namespace
 
 Tree buildTree(std::span<const Triangle> triangles) {
@@ -202,8 +189,8 @@ Tree buildTree(std::span<const Triangle> triangles) {
     if (count > Node::MOST_PAIRS / 2)
         throw std::length_error("more triangles than the hierarchy can number");
     Tree tree;
-    auto references = makeArray<Reference>(count);
-    tree.children = makeArray<std::array<Node, 2>>(Builder::mostInner(count));
+    auto references = makeKernelArray<Reference>(count);
+    tree.children = makeKernelArray<std::array<Node, 2>>(Builder::mostInner(count));
     Builder builder(references.get(), tree.children.get());
     Reference* end = nullptr;
 #pragma omp parallel
@@ -224,7 +211,7 @@ Tree buildTree(std::span<const Triangle> triangles) {
     }
     shrink(tree.children, builder.innerCount());
     const auto size = static_cast<std::size_t>(end - references.get());
-    tree.order = makeArray<std::uint32_t>(size);
+    tree.order = makeKernelArray<std::uint32_t>(size);
 #pragma omp parallel for
     for (std::size_t i = 0; i < size; ++i)
         tree.order[i] = references[i].triangle();

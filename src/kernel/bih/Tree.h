@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "kernel/RTKernel.h"
+#include "kernel/KernelArray.h"
 #include "kernel/bih/References.h"
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <span>
 
 namespace bwfirt {
@@ -51,13 +50,6 @@ class Node {
 };
 static_assert(sizeof(Node) == 12);
 
-struct KernelFree {
-    void operator()(void* pointer) const { RTKernel::kernel_free(pointer); }
-};
-/// Memory that counts as the kernel's, and that nobody has written to yet.
-template <typename T>
-using Array = std::unique_ptr<T[], KernelFree>;
-
 /// A bounding interval hierarchy over triangles.
 struct Tree {
     /// Most nodes with two children that hold triangles on the way from the root to a leaf.
@@ -65,8 +57,8 @@ struct Tree {
 
     Box bounds;
     Node root = Node::leaf(0, 0);
-    Array<std::array<Node, 2>> children;  ///< of the inner nodes
-    Array<std::uint32_t> order;           ///< triangles in the order of the leaves
+    KernelArray<std::array<Node, 2>> children;  ///< of the inner nodes
+    KernelArray<std::uint32_t> order;           ///< triangles in the order of the leaves
 };
 
 /// The tree is the same for any number of threads, up to the places of the children.

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "kernel/Simd4.h"
 #include "math/Vector.h"
-
-#include <experimental/simd>
 
 #include <limits>
 
 namespace bwfirt {
-
-/// Four numbers that an instruction of the processor computes at once, where it has such.
-using Floats4 = std::experimental::simd<float, std::experimental::simd_abi::deduce_t<float, 4>>;
 
 inline Floats4 toFloats4(const V3f& v) {
     return Floats4([&](int i) { return i < 3 ? v[i] : 0.0F; });

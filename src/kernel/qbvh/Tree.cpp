@@ -22,13 +22,12 @@ class Builder {
         if (count_ > Child::MOST_ENTRIES)
             throw std::length_error("more triangles than a leaf can refer to");
         // Every node has an inner node and three leaves of one triangle at worst, see split().
-        tree_.nodes = makeArray<Node>(count_ / 3 + 1);
+        tree_.nodes = makeKernelArray<Node>(count_ / 3 + 1);
 #pragma omp parallel
 #pragma omp single
         buildRoot();
-        tree_.nodes.reset(static_cast<Node*>(
-            RTKernel::kernel_realloc(tree_.nodes.release(), nodeCount_ * sizeof(Node))));
-        tree_.indices = makeArray<std::uint32_t>(count_);
+        shrink(tree_.nodes, nodeCount_);
+        tree_.indices = makeKernelArray<std::uint32_t>(count_);
 #pragma omp parallel for
         for (std::size_t i = 0; i < count_; ++i)
             tree_.indices[i] = references_[i].triangle;
@@ -52,7 +51,7 @@ class Builder {
         for (std::size_t piece = 0; piece < pieces; ++piece)
             first[piece + 1] += first[piece];
         count_ = first[pieces];
-        references_ = makeArray<Reference>(count_);
+        references_ = makeKernelArray<Reference>(count_);
 #pragma omp parallel for
         for (std::size_t piece = 0; piece < pieces; ++piece) {
             Reference* next = &references_[first[piece]];
@@ -150,7 +149,7 @@ class Builder {
 
     std::span<const Triangle> triangles_;
     Tree& tree_;
-    Array<Reference> references_;
+    KernelArray<Reference> references_;
     std::size_t count_ = 0;
     std::atomic<std::uint32_t> nodeCount_ = 0;
 };

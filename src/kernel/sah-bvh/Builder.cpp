@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "kernel/sah-bvh/Builder.h"
 
+#include "kernel/KernelArray.h"
 #include "kernel/sah-bvh/Binning.h"
 
 #include <algorithm>
@@ -21,9 +22,8 @@ class Builder {
 
     const Node* build() {
         const std::size_t count = triangles_.size();
-        const std::unique_ptr<void, KernelFree> memory(
-            RTKernel::kernel_malloc(count * sizeof(Reference), alignof(Reference)));
-        auto* const references = static_cast<Reference*>(memory.get());
+        const auto memory = makeKernelArray<Reference>(count);
+        Reference* const references = memory.get();
 #pragma omp parallel for
         for (std::size_t i = 0; i < count; ++i)
             new (&references[i]) Reference(triangles_[i], static_cast<std::uint32_t>(i));
@@ -44,10 +44,6 @@ class Builder {
     }
 
   private:
-    struct KernelFree {
-        void operator()(void* pointer) const { RTKernel::kernel_free(pointer); }
-    };
-
     /// From this depth on ranges are halved, which takes at most 32 more levels.
     static constexpr int MAX_SAH_DEPTH = MAX_DEPTH - 32;
 

@@ -64,7 +64,8 @@ class NearestQuery {
     }
 
     /// Takes the nearest child of the last node that has any left. A key is less than the distance
-    /// that it stands for by its lowest bits. While a leaf is tested, the child after it is fetched.
+    /// that it stands for by its lowest bits. While a leaf is tested, the child after it is
+    /// fetched.
     bool chooseNext() {
         std::int32_t key = least(keys_);
         while (key > std::bit_cast<std::int32_t>(tMax_)) {

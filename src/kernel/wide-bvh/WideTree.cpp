@@ -19,15 +19,15 @@ constexpr std::size_t HUGE_PAGE = std::size_t{2} << 20;
 
 /// Lines of memory, in huge pages where there are enough of them: an incoherent ray touches many
 /// pages, and each look into the page table that is saved counts.
-Line* allocateLines(std::size_t count) {
+KernelArray<Line> allocateLines(std::size_t count) {
     const std::size_t bytes = count * sizeof(Line);
     const bool isLarge = bytes >= HUGE_PAGE;
-    void* const lines = RTKernel::kernel_malloc(bytes, isLarge ? HUGE_PAGE : alignof(Line));
+    KernelArray<Line> lines = makeKernelArray<Line>(count, isLarge ? HUGE_PAGE : alignof(Line));
 #ifdef __linux__
     if (isLarge)
-        madvise(lines, bytes / HUGE_PAGE * HUGE_PAGE, MADV_HUGEPAGE);
+        madvise(lines.get(), bytes / HUGE_PAGE * HUGE_PAGE, MADV_HUGEPAGE);
 #endif
-    return static_cast<Line*>(lines);
+    return lines;
 }
 
 float reachOf(const Bounds& bounds) {
@@ -48,7 +48,7 @@ WideTree::WideTree(std::span<const Triangle> triangles) {
     const std::size_t size = collapse.size();
     if (size >= Child::MOST_LINES)
         throw std::length_error("the tree has more nodes than it can number");
-    lines_.reset(allocateLines(size + END_LINES));
+    lines_ = allocateLines(size + END_LINES);
     std::fill_n(lines_.get() + size, END_LINES, Line{});
     collapse.write(lines_.get());
 }

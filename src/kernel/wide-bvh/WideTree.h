@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "kernel/RTKernel.h"
+#include "kernel/KernelArray.h"
 #include "kernel/wide-bvh/Simd.h"
 
 #include <array>
@@ -117,11 +117,7 @@ class WideTree {
     float reach() const { return reach_; }
 
   private:
-    struct KernelFree {
-        void operator()(Line* lines) const { RTKernel::kernel_free(lines); }
-    };
-
-    std::unique_ptr<Line[], KernelFree> lines_;
+    KernelArray<Line> lines_;
     float reach_ = 0;
 };
 

@@ -17,8 +17,8 @@ namespace bwfirt::test {
 constexpr float INFINITE = std::numeric_limits<float>::infinity();
 constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 
-/// The kernel, ready for queries. The triangles have to outlive it. Every fourth question that it is
-/// asked alone it is also asked in flight, and the test fails where the answers differ.
+/// The kernel, ready for queries. The triangles have to outlive it. Every fourth question that it
+/// is asked alone it is also asked in flight, and the test fails where the answers differ.
 std::unique_ptr<RTKernel> kernelFor(const Triangles& triangles);
 std::unique_ptr<RTKernel> kernelFor(Triangles&& triangles) = delete;
 
