@@ -202,7 +202,7 @@ Tree buildTree(std::span<const Triangle> triangles) {
         {
             Reference* const begin = references.get();
             const Parts parts = partition(begin, begin + count, [](const Reference& reference) {
-                return !reference.box().isEmpty();
+                return !reference.boxWithIndex().isEmpty();
             });
             end = parts.middle;
             tree.bounds = parts.firstBounds;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
+#include "kernel/RTKernel.h"
 #include "kernel/WatertightRay.h"
 #include "kernel/qbvh/BoxRay.h"
 #include "kernel/qbvh/Tree.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "kernel/Reference.h"
 #include "kernel/Triangle4.h"
-#include "kernel/sah-bvh/Box.h"
 
 #include <array>
 #include <cstdint>
