@@ -211,25 +211,6 @@ Group refer(std::span<const Triangle> triangles, std::span<Reference> references
     return all;
 }
 
-/// Length of the longest way from a node to a leaf.
-/// @param taskLevels levels of the tree on which one of two subtrees is left to another thread
-int heightOf(const BinaryTree& tree, std::uint32_t node, int taskLevels) {
-    const BinaryNode& inner = tree.nodes[node];
-    if (inner.count > 0)
-        return 0;
-    const auto heightOfChild = [&](std::uint32_t child) {
-        return heightOf(tree, inner.first + child, taskLevels - 1);
-    };
-    if (taskLevels <= 0)
-        return 1 + std::max(heightOfChild(0), heightOfChild(1));
-    int height = 0;
-#pragma omp task default(shared)
-    height = heightOfChild(0);
-    const int otherHeight = heightOfChild(1);
-#pragma omp taskwait
-    return 1 + std::max(height, otherHeight);
-}
-
 /// Builds the tree in arrays that are large enough.
 void build(BinaryTree& tree, std::span<const Triangle> triangles, std::span<Reference> references) {
     const Group all = refer(triangles, references);
@@ -257,16 +238,8 @@ BinaryTree buildBinaryTree(std::span<const Triangle> triangles,
     tree.parents.resize(room);
     tree.references.resize(room);
     build(tree, triangles, references);
-    if (tree.nodes.empty())
-        return tree;
-
-    reinsert(tree, settings.reinsertions);
-    int height = 0;
-#pragma omp parallel
-#pragma omp single
-    height = heightOf(tree, 0, 10);
-    if (height > BinaryTree::MAX_DEPTH)
-        build(tree, triangles, references);
+    if (!tree.nodes.empty())
+        reinsert(tree, settings.reinsertions);
     return tree;
 }
 

@@ -57,7 +57,7 @@ using UnsetVector = std::vector<T, UnsetAllocator<T>>;
 /// A binary tree over triangles. Each triangle stands in one leaf or, where it was split, in
 /// several, whose boxes together hold all of it. Not all elements of the arrays are in use.
 struct BinaryTree {
-    /// Longest way from the root to a leaf.
+    /// Longest way from the root to a leaf, before reinsertion.
     static constexpr int MAX_DEPTH = 96;
 
     UnsetVector<BinaryNode> nodes;          ///< the root first; none for a scene without area

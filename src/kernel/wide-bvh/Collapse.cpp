@@ -4,6 +4,7 @@
 #include "kernel/wide-bvh/LeafContent.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <numeric>
 
@@ -35,13 +36,17 @@ Node emptyNode(std::uint32_t noChild) {
 }  // namespace
 
 Collapse::Collapse(std::span<const Triangle> triangles, const BinaryTree& tree)
-    : triangles_(triangles), tree_(tree), weights_(tree.nodes.size()), sizes_(tree.nodes.size()) {
+    : triangles_(triangles),
+      tree_(tree),
+      weights_(tree.nodes.size()),
+      isOneWeighed_(tree.parents.size()),
+      sizes_(tree.nodes.size()) {
 #pragma omp parallel
 #pragma omp single
-    {
-        weigh(0, 0);
-        measure(0, 0);
-    }
+    descend(0, 0);
+#pragma omp parallel
+#pragma omp single
+    measure(0, 0);
 }
 
 void Collapse::write(Line* lines) const {
@@ -50,12 +55,40 @@ void Collapse::write(Line* lines) const {
     write(0, lines, 0, 0);
 }
 
-void Collapse::weigh(std::uint32_t index, int depth) {
+/// Weighs all that is below a node. No task waits for another, which would leave its thread idle
+/// where one child of a node has much more below it than the other.
+void Collapse::descend(std::uint32_t index, int depth) {
+    const BinaryNode& node = tree_.nodes[index];
+    if (node.count > 0) {
+        ascend(index);
+        return;
+    }
+    if (depth < PARALLEL_DEPTH) {
+#pragma omp task firstprivate(node, depth)
+        descend(node.first, depth + 1);
+    } else {
+        descend(node.first, depth + 1);
+    }
+    descend(node.first + 1, depth + 1);
+}
+
+/// Weighs a leaf and then one node after the other on the way to the root, as far as both children
+/// have been weighed: the thread that weighs the second one goes on.
+void Collapse::ascend(std::uint32_t index) {
+    weigh(index);
+    while (index != 0 && std::atomic_ref(isOneWeighed_[index / 2]).exchange(1) != 0) {
+        index = tree_.parents[index / 2];
+        weigh(index);
+    }
+}
+
+void Collapse::weigh(std::uint32_t index) {
     const BinaryNode& node = tree_.nodes[index];
     const float area = halfArea(node.bounds);
     Weight& weight = weights_[index];
     weight.costs.fill(INFINITE);
     weight.leafLines = 0;
+    weight.height = 0;
     weight.isLeaf = false;
     if (node.count > 0) {
         weighAsLeaf(index, area);
@@ -63,19 +96,15 @@ void Collapse::weigh(std::uint32_t index, int depth) {
         return;
     }
 
-    const std::uint32_t first = node.first, second = node.first + 1;
-#pragma omp task if (depth < PARALLEL_DEPTH) default(shared)
-    weigh(first, depth + 1);
-    weigh(second, depth + 1);
-#pragma omp taskwait
-
-    const auto &one = weights_[first].costs, &other = weights_[second].costs;
+    const Weight &first = weights_[node.first], &second = weights_[node.first + 1];
+    weight.height = static_cast<std::uint16_t>(1 + std::max(first.height, second.height));
+    const auto &one = first.costs, &other = second.costs;
     for (std::size_t most = 2; most <= WIDTH; ++most)
         for (std::size_t share = 1; share < most; ++share)
             weight.costs[most - 1] =
                 std::min(weight.costs[most - 1], one[share - 1] + other[most - share - 1]);
     weight.costs[0] = weight.costs[WIDTH - 1] + area * NODE_COST;
-    if (weights_[first].leafLines > 0 && weights_[second].leafLines > 0)
+    if (first.leafLines > 0 && second.leafLines > 0)
         weighAsLeaf(index, area);
     for (std::size_t i = 1; i < WIDTH; ++i)
         weight.costs[i] = std::min(weight.costs[i], weight.costs[i - 1]);
@@ -86,7 +115,7 @@ void Collapse::weighAsLeaf(std::uint32_t index, float area) {
     if (!content.collect(triangles_, tree_, index))
         return;
     Weight& weight = weights_[index];
-    weight.leafLines = static_cast<std::uint16_t>(linesOf(content.bytes()));
+    weight.leafLines = static_cast<std::uint8_t>(linesOf(content.bytes()));
     const float cost = area * (LEAF_COST + LINE_COST * weight.leafLines);
     weight.isLeaf = cost <= weight.costs[0];
     weight.costs[0] = std::min(weight.costs[0], cost);
@@ -136,7 +165,7 @@ std::size_t Collapse::measure(std::uint32_t index, int depth) {
         if (weights_[child].isLeaf)
             sizes[i] = weights_[child].leafLines;
         else
-#pragma omp task if (depth < PARALLEL_DEPTH / 3) default(shared) firstprivate(i, child)
+#pragma omp task if (depth < PARALLEL_WIDE_DEPTH) default(shared) firstprivate(i, child)
             sizes[i] = measure(child, depth + 1);
     }
 #pragma omp taskwait
@@ -171,7 +200,7 @@ void Collapse::write(std::uint32_t index, Line* lines, std::size_t first, int de
         const std::uint32_t child = children.nodes[i];
         if (weights_[child].isLeaf)
             continue;
-#pragma omp task if (depth < PARALLEL_DEPTH / 3) default(shared) firstprivate(child, next)
+#pragma omp task if (depth < PARALLEL_WIDE_DEPTH) default(shared) firstprivate(child, next)
         write(child, lines, next, depth + 1);
         place(i, 0, sizes_[child]);
     }

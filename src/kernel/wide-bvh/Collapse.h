@@ -13,6 +13,9 @@ class Collapse {
   public:
     Collapse(std::span<const Triangle> triangles, const BinaryTree& tree);
 
+    /// Length of the longest way from the root of the binary tree to a leaf.
+    int height() const { return weights_[0].height; }
+
     /// Lines of memory that the wide tree takes.
     std::size_t size() const { return sizes_[0]; }
 
@@ -25,17 +28,21 @@ class Collapse {
     static constexpr float NODE_COST = 1, LEAF_COST = 1, LINE_COST = 0.15F;
 
     /// Binary nodes at this depth and below it are left to the thread that has come to them.
-    static constexpr int PARALLEL_DEPTH = 10;
+    static constexpr int PARALLEL_DEPTH = 16;
+    static constexpr int PARALLEL_WIDE_DEPTH = 3;
 
     struct Weight {
         /// costs[i] is the least cost of what is below a binary node, where it becomes at most
         /// i + 1 children of a wide node.
         std::array<float, WIDTH> costs;
-        std::uint16_t leafLines;  ///< that it takes as a leaf; 0 where it does not fit in one
-        bool isLeaf;              ///< whether it is best made a leaf
+        std::uint8_t leafLines;  ///< that it takes as a leaf; 0 where it does not fit in one
+        std::uint16_t height;    ///< of what is below it
+        bool isLeaf;             ///< whether it is best made a leaf
     };
 
-    void weigh(std::uint32_t node, int depth);
+    void descend(std::uint32_t node, int depth);
+    void ascend(std::uint32_t leaf);
+    void weigh(std::uint32_t node);
     void weighAsLeaf(std::uint32_t node, float area);
     std::size_t measure(std::uint32_t node, int depth);
     void write(std::uint32_t node, Line* lines, std::size_t first, int depth) const;
@@ -52,7 +59,8 @@ class Collapse {
     std::span<const Triangle> triangles_;
     const BinaryTree& tree_;
     UnsetVector<Weight> weights_;
-    UnsetVector<std::size_t> sizes_;  ///< lines that a node becomes, with all below it
+    KernelVector<std::uint8_t> isOneWeighed_;  ///< of the nodes 2 i and 2 i + 1
+    UnsetVector<std::size_t> sizes_;           ///< lines that a node becomes, with all below it
 };
 
 }  // namespace bwfirt::wide

@@ -40,17 +40,25 @@ float reachOf(const Bounds& bounds) {
 }  // namespace
 
 WideTree::WideTree(std::span<const Triangle> triangles) {
-    const BinaryTree binary = buildBinaryTree(triangles);
+    if (!build(triangles, {}))
+        build(triangles, {.reinsertions = 0});
+}
+
+bool WideTree::build(std::span<const Triangle> triangles, const BinaryTreeSettings& settings) {
+    const BinaryTree binary = buildBinaryTree(triangles, settings);
     if (binary.nodes.empty())
-        return;
-    reach_ = reachOf(binary.nodes[0].bounds);
+        return true;
     const Collapse collapse(triangles, binary);
+    if (collapse.height() > BinaryTree::MAX_DEPTH)
+        return false;
     const std::size_t size = collapse.size();
     if (size >= Child::MOST_LINES)
         throw std::length_error("the tree has more nodes than it can number");
+    reach_ = reachOf(binary.nodes[0].bounds);
     lines_ = allocateLines(size + END_LINES);
     std::fill_n(lines_.get() + size, END_LINES, Line{});
     collapse.write(lines_.get());
+    return true;
 }
 
 }  // namespace bwfirt::wide

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/KernelArray.h"
+#include "kernel/wide-bvh/BinaryTree.h"
 #include "kernel/wide-bvh/Simd.h"
 
 #include <array>
@@ -117,6 +118,9 @@ class WideTree {
     float reach() const { return reach_; }
 
   private:
+    /// False where reinsertion has made the binary tree too deep.
+    bool build(std::span<const Triangle> triangles, const BinaryTreeSettings& settings);
+
     KernelArray<Line> lines_;
     float reach_ = 0;
 };
