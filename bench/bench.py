@@ -8,7 +8,7 @@
 SCENES = ['cornell', 'conference', 'atrium', 'statue', 'forest', 'hairball', 'stadium']
 MORE_SCENES = ['$BWFIRT_SCENES']  # in a full run
 KERNELS = ['simple-bvh', 'funky-kd', '*']
-QUICK_KERNELS = ['simple-bvh', 'funky-kd', 'wide-bvh', 'embree']  # of these, those that are built
+QUICK_KERNELS = ['simple-bvh', 'funky-kd', 'wide-bvh']  # of these, those that are built
 CONTROL = 'funky-kd'  # is measured against itself, to learn the noise
 THREAD_SCALING = ['conference']  # scenes that are rendered with fewer threads, too
 GROWTH = 'forest'  # a standard scene that is made of ever more triangles
@@ -38,7 +38,7 @@ except ModuleNotFoundError as missing:
 
 FULL = Extent(size='640x480', passes=16, repeats=3, controls=None, replay_rays=1000000,
               replay_seconds=1, growth=(1000, 10000, 100000, 1000000, 10000000), time_limit=1800)
-QUICK = Extent(size='200x150', passes=3, repeats=2, controls=3, replay_rays=20000,
+QUICK = Extent(size='200x150', passes=2, repeats=2, controls=3, replay_rays=20000,
                replay_seconds=0.05, growth=(1000, 10000, 100000), time_limit=120)
 BENCH = ROOT / 'bench'
 MOST_BYTES = 2**62  # that a limit can be
