@@ -35,8 +35,8 @@ class Collapse {
         /// costs[i] is the least cost of what is below a binary node, where it becomes at most
         /// i + 1 children of a wide node.
         std::array<float, WIDTH> costs;
-        std::uint8_t leafLines;  ///< that it takes as a leaf; 0 where it does not fit in one
         std::uint16_t height;    ///< of what is below it
+        std::uint8_t leafLines;  ///< that it takes as a leaf; 0 where it does not fit in one
         bool isLeaf;             ///< whether it is best made a leaf
     };
 
