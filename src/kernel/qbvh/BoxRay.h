@@ -2,98 +2,69 @@
 #pragma once
 
 #include "kernel/qbvh/Node.h"
+#include "kernel/qbvh/TreeRay.h"
+#include "kernel/qbvh/Vectors.h"
 
-#include <algorithm>
-#include <cmath>
-
-#ifdef __FMA__
-#include <immintrin.h>
-#endif
+#include <array>
+#include <bit>
+#include <cstring>
 
 namespace bwfirt {
 
-/// The points origin + t * direction, t > 0, prepared for tests against the boxes of nodes.
+/// A ray prepared for tests against the boxes of nodes.
 ///
-/// The tests work in coordinates of the tree, in which the scene reaches from -1 to 1 and the
-/// largest component of the direction is 1, so that nothing overflows. They are conservative. The
-/// distance to a plane, (origin + q * step - ray origin) * inverse, carries less than 12 rounding
-/// errors of its two summands. Where the ray starts farther from the node's origin than twice the
-/// node's size, that is less than 24 rounding errors of the distance, for which SLACK makes room
-/// (Ize: "Robust BVH ray traversal", JCGT 2(2), 2013). Where it starts nearer, that is less than
-/// 2^-11 steps, for which Node::MARGIN does.
+/// The distance to a plane is (node's origin + q * step - ray's origin) * inverse direction. The
+/// tests are conservative (Ize: "Robust BVH ray traversal", JCGT 2(2), 2013): with the ray's origin
+/// in [-2, 2] and nodes in [-1, 1], rounding moves a plane by less than 11 * 2^-24, for which
+/// Node::MARGIN makes room, and changes the distance by less than 4 * 2^-24 of itself, for which
+/// SLACK does.
 class BoxRay {
   public:
-    BoxRay(const V3d& origin, const V3d& direction, double scale) {
-        const double size =
-            std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
-        tScale_ = scale * size;
-        bool isFar = false;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto i = static_cast<std::size_t>(axis);
-            origin_[i] = static_cast<float>(scale * origin[axis]);
-            inverse_[i] = static_cast<float>(
-                std::copysign(std::min(size / std::abs(direction[axis]), MOST), direction[axis]));
-            nearPlanes_[i] = 2 * i + (inverse_[i] < 0 ? 1 : 0);
-            isFar |= !(std::abs(origin_[i]) < FARTHEST);
-        }
-        if (isFar) {
-            origin_.fill(0);
-            inverse_.fill(0);  // where all boxes are met at distance 0
-        }
+    explicit BoxRay(const TreeRay& ray) {
+        if (ray.isFar)
+            return;  // all boxes are met at distance 0
+        inverse_ = __builtin_convertvector(lesser(greater(ray.inverse, -MOST), MOST), Float4);
+        stepInverse_ = __builtin_shufflevector(inverse_, inverse_, 3, 0, 1, 2);
+        minusOrigin_ = -__builtin_convertvector(ray.origin, Float4) * inverse_;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            nearRows_[axis] = 2 * axis + (inverse_[static_cast<int>(axis)] < 0 ? 1 : 0);
     }
 
-    /// The distance of a point of the ray in coordinates of the tree.
-    float toTree(double t) const { return static_cast<float>(t * tScale_); }
-
-    /// Where the ray enters the boxes of the children, and leaves them or reaches tMax. It misses
-    /// those that it leaves before it enters them.
-    struct Intervals {
-        Floats4 enter;
-        Floats4 leave;
-        auto areMet() const { return enter <= leave; }
+    /// Where the ray enters the boxes of the children, and which of them it meets up to tMax.
+    struct Meeting {
+        Int4 enter;  ///< distances not below 0, whose bits are ordered like them
+        unsigned children;
     };
-    [[gnu::always_inline]] Intervals intersect(const Node& node, float tMax) const {
-        Floats4 enter = 0, leave = tMax;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const Floats4 step = Floats4(node.step[axis]) * inverse_[axis];
-            const Floats4 origin =
-                (Floats4(node.origin[axis]) - Floats4(origin_[axis])) * inverse_[axis];
-            const std::size_t near = nearPlanes_[axis];
-            enter = max(enter, multiplyAdd(toNumbers(node.planes[near]), step, origin));
-            leave = min(leave, multiplyAdd(toNumbers(node.planes[near ^ 1]), step, origin));
-        }
-        return {enter, leave * SLACK};
+    [[gnu::always_inline]] Meeting meet(const Node& node, float tMax) const {
+        const Float4 start = multiplyAdd(node.gridOrigin(), inverse_, minusOrigin_);
+        const Float4 step = node.gridSteps() * stepInverse_;
+        const Float4 startX = inAllLanes<0>(start), stepX = inAllLanes<1>(step);
+        const Float4 startY = inAllLanes<1>(start), stepY = inAllLanes<2>(step);
+        const Float4 startZ = inAllLanes<2>(start), stepZ = inAllLanes<3>(step);
+        const auto plane = [&](std::size_t row, const Float4& first, const Float4& each) {
+            return multiplyAdd(load(node.planes[row]), each, first);
+        };
+        const auto [x, y, z] = nearRows_;
+        const Float4 enter = greater(greater(plane(x, startX, stepX), plane(y, startY, stepY)),
+                                     greater(plane(z, startZ, stepZ), Float4{}));
+        const Float4 leave =
+            lesser(lesser(plane(x ^ 1, startX, stepX), plane(y ^ 1, startY, stepY)),
+                   lesser(plane(z ^ 1, startZ, stepZ), Float4{tMax, tMax, tMax, tMax}));
+        const Int4 enterBits = std::bit_cast<Int4>(enter);
+        const Int4 areMissed = enterBits > std::bit_cast<Int4>(leave) + SLACK;
+        return {enterBits, bitsOf(areMissed) ^ 15};
     }
+
+    /// Units in the last place.
+    static constexpr std::int32_t SLACK = 64;
 
   private:
-    [[gnu::always_inline]] static Floats4 toNumbers(
-        const std::array<std::uint8_t, Node::WIDTH>& planes) {
-        return Floats4(planes.data(), std::experimental::element_aligned);
-    }
+    /// Takes the place of larger numbers, infinity above all: within 2^16 such a ray leaves its
+    /// place on the axis by less than 2^-74.
+    static constexpr Double4 MOST{0x1p90, 0x1p90, 0x1p90, 0x1p90};
 
-    /// a * b + c in one step where the processor has that; the bounds on errors hold for both.
-    [[gnu::always_inline]] static Floats4 multiplyAdd(const Floats4& a, const Floats4& b,
-                                                      const Floats4& c) {
-#ifdef __FMA__
-        return Floats4(
-            _mm_fmadd_ps(static_cast<__m128>(a), static_cast<__m128>(b), static_cast<__m128>(c)));
-#else
-        return a * b + c;
-#endif
-    }
-
-    static constexpr float SLACK = 1 + 32 * std::numeric_limits<float>::epsilon();
-    /// Rays from farther away test all boxes.
-    static constexpr float FARTHEST = 0x1p14F;
-    /// Takes the place of larger numbers, infinity above all. On its way through the scene, less
-    /// than 2 * FARTHEST, such a ray leaves its place on the axis by less than a margin.
-    static constexpr double MOST = 0x1p90;
-    static_assert(2 * FARTHEST / MOST < Node::LEAST_STEP * Node::MARGIN);
-
-    std::array<float, 3> origin_;
-    std::array<float, 3> inverse_;
-    std::array<std::size_t, 3> nearPlanes_;  ///< index into Node::planes
-    double tScale_;
+    Float4 inverse_{}, stepInverse_{}, minusOrigin_{};
+    std::array<std::size_t, 3> nearRows_{};  ///< of Node::planes
 };
 
 }  // namespace bwfirt

@@ -2,20 +2,26 @@
 #include "kernel/RTKernel.h"
 #include "kernel/WatertightRay.h"
 #include "kernel/qbvh/BoxRay.h"
+#include "kernel/qbvh/LeafRay.h"
 #include "kernel/qbvh/Tree.h"
-#include "kernel/qbvh/TriangleFilter.h"
 
 #include <array>
+#include <bit>
 
 namespace bwfirt {
 
 namespace {
 
-/// Something to visit, and where the ray enters its box.
+/// A child of a node that a ray meets.
 struct Entry {
-    Child child;
-    float enter;
+    const Node* node;
+    std::uint32_t child;
+    std::int32_t enter;  ///< bits of the distance
 };
+
+/// A node on the way down leaves all of its children but one on the stack. What is written to it
+/// may reach a node's children farther.
+constexpr std::size_t STACK_SIZE = Tree::MAX_DEPTH * (Node::WIDTH - 1) + Node::WIDTH;
 
 class Qbvh : public RTKernel {
   public:
@@ -26,140 +32,178 @@ class Qbvh : public RTKernel {
 
     std::optional<Hit> kernelIntersectGeometry(const Ray& ray) const override {
         const V3d origin(ray.origin), direction(ray.direction);
+        if (!isAsked(origin, direction))
+            return std::nullopt;
+        const TreeRay treeRay(origin, direction, tree_.scale);
+        const BoxRay boxRay(treeRay);
+        const LeafRay leafRay(treeRay);
+        const WatertightRay exactRay(origin, direction);
         double tNearest = std::numeric_limits<float>::max();
         std::optional<Hit> nearest;
-        traverse<true>(origin, direction, tNearest, [&](std::uint32_t triangle, double t) {
-            const auto distance = static_cast<float>(t);
-            // At equal distance the lowest index wins, whatever the tree looks like.
-            const bool isNearer =
-                t < tNearest || (nearest && t == tNearest && triangle < nearest->triangle);
-            if (isNearer && distance > 0) {
-                tNearest = t;
-                nearest = {distance, triangle};
-            }
-            return false;
-        });
-        return nearest;
-    }
-
-    bool kernelVisibility(const V3f& x, const V3f& y) const override {
-        double tMax = 1;
-        bool isVisible = true;
-        traverse<false>(V3d(x), V3d(y) - V3d(x), tMax, [&](std::uint32_t, double t) {
-            isVisible = !(t < 1);
-            return !isVisible;
-        });
-        return isVisible;
-    }
-
-  private:
-    /// A node on the way down leaves all of its children but one on the stack.
-    static constexpr std::size_t STACK_SIZE = Tree::MAX_DEPTH * (Node::WIDTH - 1) + Node::WIDTH;
-
-    /// Calls onHit(triangle, t) for each triangle that the ray meets in a box entered before tMax,
-    /// nearer boxes first, until it returns true. onHit may lower tMax.
-    template <bool IS_ORDERED, typename OnHit>
-    void traverse(const V3d& origin, const V3d& direction, double& tMax, const OnHit& onHit) const {
-        if (!tree_.nodes || !isFinite(origin) || !isFinite(direction) || direction == V3d(0))
-            return;
-        const WatertightRay ray(origin, direction);
-        const TriangleFilter filter(origin, direction);
-        const BoxRay boxRay(origin, direction, tree_.scale);
-        float tMaxInTree = boxRay.toTree(tMax);
-        float depth = filter.depth(tMax);
+        float tMax = treeRay.distance(tNearest);
+        std::int32_t lastToEnter = lastEnter(tMax);
 
         std::array<Entry, STACK_SIZE> stack;
         std::size_t size = 0;
-        stack[size++] = {Child::node(0), 0};
-        while (size > 0) {
-            --size;
-            if (stack[size].enter > tMaxInTree)
-                continue;
-            const Child child = stack[size].child;
+        Entry current{tree_.nodes.get(), 0, 0};
+        const auto pop = [&] {
+            do {
+                if (size == 0)
+                    return false;
+                current = stack[--size];
+            } while (current.enter > lastToEnter);
             if (size > 0)
-                prefetch(stack[size - 1].child);
-            if (!child.isLeaf()) {
-                const Node& node = tree_.nodes[child.nodeIndex()];
-                const BoxRay::Intervals intervals = boxRay.intersect(node, tMaxInTree);
-                if constexpr (IS_ORDERED)
-                    size += pushNearestLast(node, intervals, &stack[size]);
-                else
-                    size += push(node, intervals, &stack[size]);
-                continue;
+                prefetch(stack[size - 1]);
+            return true;
+        };
+        while (true) {
+            const BoxRay::Meeting meeting = boxRay.meet(*current.node, tMax);
+            if (meeting.children != 0)
+                current.child = pushAllButNearest(*current.node, meeting, stack.data(), size);
+            else if (!pop())
+                return nearest;
+            while (current.node->isLeaf(current.child)) {
+                const Leaf leaf(tree_.leaves.get(), current.node->leaf(current.child));
+                const LeafGrid grid(*current.node, current.child);
+                unsigned possible = leafRay.meet(grid, leaf, tMax).possible;
+                for (; possible != 0; possible &= possible - 1) {
+                    const std::uint32_t triangle =
+                        leaf.triangle(static_cast<std::size_t>(std::countr_zero(possible)));
+                    const auto t = exactRay.intersect(triangles_[triangle]);
+                    // At equal distance the lowest index wins, whatever the tree looks like.
+                    const bool isNearer = t && (*t < tNearest || (nearest && *t == tNearest &&
+                                                                  triangle < nearest->triangle));
+                    if (isNearer && static_cast<float>(*t) > 0) {
+                        tNearest = *t;
+                        nearest = {static_cast<float>(*t), triangle};
+                        tMax = treeRay.distance(tNearest);
+                        lastToEnter = lastEnter(tMax);
+                    }
+                }
+                if (!pop())
+                    return nearest;
             }
-            const std::span indices(&tree_.indices[child.first()], child.count());
-            const auto mayMeet = filter.mayMeet(triangles_, indices, depth);
-            if (none_of(mayMeet))
-                continue;
-            for (std::size_t i = 0; i < indices.size(); ++i) {
-                if (!mayMeet[i])
-                    continue;
-                if (const auto t = ray.intersect(triangles_[indices[i]]))
-                    if (onHit(indices[i], *t))
-                        return;
-            }
-            tMaxInTree = boxRay.toTree(tMax);
-            depth = filter.depth(tMax);
+            current.node = &tree_.nodes[current.node->children[current.child]];
         }
     }
 
-    /// Writes the children that the ray meets to `top`, the nearest last, and returns how many they
-    /// are. Their number can be predicted now and then; their order cannot, and no branch depends
-    /// on it.
-    [[gnu::always_inline]] static std::size_t pushNearestLast(const Node& node,
-                                                              const BoxRay::Intervals& intervals,
-                                                              Entry* top) {
-        const auto areMet = intervals.areMet();
-        const auto count = static_cast<std::size_t>(popcount(areMet));
-        if (count == 0)
-            return 0;
-        std::array<float, Node::WIDTH> enter;
-        intervals.enter.copy_to(enter.data(), std::experimental::element_aligned);
-        const auto entry = [&](std::size_t i) { return Entry{node.children[i], enter[i]}; };
-        const auto first = static_cast<std::size_t>(find_first_set(areMet));
-        if (count == 1) {
-            top[0] = entry(first);
-            return count;
-        }
-        if (count == 2) {
-            const auto last = static_cast<std::size_t>(find_last_set(areMet));
-            const std::size_t nearer = enter[first] < enter[last] ? 1 : 0;
-            top[nearer] = entry(first);
-            top[1 - nearer] = entry(last);
-            return count;
-        }
-        for (std::size_t i = 0; i < Node::WIDTH; ++i)
-            enter[i] = areMet[i] ? enter[i] : -1;
-        std::array<std::size_t, Node::WIDTH> fartherOnes{};
-        for (std::size_t i = 1; i < Node::WIDTH; ++i) {
-            for (std::size_t j = 0; j < i; ++j) {
-                const std::size_t isFarther = enter[j] < enter[i] ? 1 : 0;
-                fartherOnes[j] += isFarther;
-                fartherOnes[i] += 1 - isFarther;
+    bool kernelVisibility(const V3f& x, const V3f& y) const override {
+        const V3d origin(x), direction = V3d(y) - origin;
+        if (!isAsked(origin, direction))
+            return true;
+        const TreeRay treeRay(origin, direction, tree_.scale);
+        if (treeRay.misses)
+            return true;
+        const BoxRay boxRay(treeRay);
+        const LeafRay leafRay(treeRay);
+        const float tMax = treeRay.distance(1);
+
+        std::array<std::uint32_t, STACK_SIZE * NODES_AT_A_TIME> nodes;
+        std::array<Entry, Node::WIDTH * NODES_AT_A_TIME> leaves;
+        std::size_t nodeCount = 0, leafCount = 0;
+        const auto push = [&](const Node& node, unsigned children) {
+            storeChosen(&nodes[nodeCount], children & ~node.leaves(), node.children);
+            nodeCount += static_cast<std::size_t>(std::popcount(children & ~node.leaves()));
+            for (unsigned rest = children & node.leaves(); rest != 0; rest &= rest - 1)
+                leaves[leafCount++] = {&node, static_cast<std::uint32_t>(std::countr_zero(rest)),
+                                       0};
+        };
+        nodes[nodeCount++] = 0;
+        while (nodeCount > 0) {
+            const Node& one = tree_.nodes[nodes[--nodeCount]];
+            const bool areTwo = nodeCount > 0;
+            const Node& two = areTwo ? tree_.nodes[nodes[--nodeCount]] : one;
+            const unsigned ofOne = boxRay.meet(one, tMax).children;
+            const unsigned ofTwo = areTwo ? boxRay.meet(two, tMax).children : 0;
+            push(two, ofTwo);
+            push(one, ofOne);
+            while (leafCount > 0) {
+                const auto& [node, child, enter] = leaves[--leafCount];
+                const Leaf leaf(tree_.leaves.get(), node->leaf(child));
+                const LeafRay::Meeting meeting = leafRay.meet(LeafGrid(*node, child), leaf, tMax);
+                if (meeting.certain != 0 ||
+                    (meeting.possible != 0 && isBlocked(origin, direction, leaf, meeting.possible)))
+                    return false;
             }
         }
-        for (std::size_t i = 0; i < Node::WIDTH; ++i)
-            top[fartherOnes[i]] = entry(i);
-        return count;
+        return true;
     }
 
-    /// Writes the children that the ray meets to `top` as they stand.
-    [[gnu::always_inline]] static std::size_t push(const Node& node,
-                                                   const BoxRay::Intervals& intervals, Entry* top) {
-        const auto areMet = intervals.areMet();
-        std::size_t count = 0;
-        for (std::size_t i = 0; i < Node::WIDTH; ++i) {
-            top[count] = {node.children[i], 0};
-            count += areMet[i] ? 1 : 0;
+  private:
+    static constexpr std::size_t NODES_AT_A_TIME = 2;
+
+    bool isAsked(const V3d& origin, const V3d& direction) const {
+        return tree_.nodes && isFinite(origin) && isFinite(direction) && direction != V3d(0);
+    }
+
+    /// The largest bits of a distance at which a box may be entered.
+    static std::int32_t lastEnter(float tMax) {
+        return (std::bit_cast<std::int32_t>(tMax) + BoxRay::SLACK) | LANE_BITS;
+    }
+
+    static constexpr std::int32_t LANE_BITS = 3;
+
+    /// Pushes the children that the ray meets, the nearer ones last, but for the nearest, which it
+    /// returns. Their number can be predicted now and then; their order cannot, and no branch
+    /// depends on it.
+    [[gnu::always_inline]] static std::uint32_t pushAllButNearest(const Node& node,
+                                                                  const BoxRay::Meeting& meeting,
+                                                                  Entry* stack, std::size_t& size) {
+        const auto first = static_cast<std::uint32_t>(std::countr_zero(meeting.children));
+        unsigned rest = meeting.children & (meeting.children - 1);
+        if (rest == 0)
+            return first;
+        const auto second = static_cast<std::uint32_t>(std::countr_zero(rest));
+        rest &= rest - 1;
+        if (rest == 0) {
+            const std::int32_t enterFirst = meeting.enter[static_cast<int>(first)];
+            const std::int32_t enterSecond = meeting.enter[static_cast<int>(second)];
+            const bool isFirstNearer = enterFirst <= enterSecond;
+            stack[size++] = {&node, isFirstNearer ? second : first,
+                             isFirstNearer ? enterSecond : enterFirst};
+            return isFirstNearer ? first : second;
         }
-        return count;
+        // A network of exchanges sorts the distances, in whose last bits are their lanes.
+        const Int4 lanes{0, 1, 2, 3};
+        const Int4 areMet = ((static_cast<std::int32_t>(meeting.children) >> lanes) & 1) != 0;
+        Int4 keys =
+            areMet ? (meeting.enter & ~LANE_BITS) | lanes : Int4{NO_KEY, NO_KEY, NO_KEY, NO_KEY};
+        const auto exchange = [&](const Int4& others, const Int4& takesLarger) {
+            keys = takesLarger ? greater(keys, others) : lesser(keys, others);
+        };
+        exchange(__builtin_shufflevector(keys, keys, 1, 0, 3, 2), Int4{0, -1, 0, -1});
+        exchange(__builtin_shufflevector(keys, keys, 2, 3, 0, 1), Int4{0, 0, -1, -1});
+        exchange(__builtin_shufflevector(keys, keys, 0, 2, 1, 3), Int4{0, 0, -1, 0});
+        const auto entry = [&](int i) {
+            return Entry{&node, static_cast<std::uint32_t>(keys[i] & LANE_BITS), keys[i]};
+        };
+        stack[size] = entry(3);
+        size += keys[3] != NO_KEY ? 1 : 0;
+        stack[size++] = entry(2);
+        stack[size++] = entry(1);
+        return static_cast<std::uint32_t>(keys[0] & LANE_BITS);
     }
 
-    void prefetch(Child child) const {
-        if (child.isLeaf())
-            __builtin_prefetch(&tree_.indices[child.first()]);
+    static constexpr std::int32_t NO_KEY = std::numeric_limits<std::int32_t>::max();
+
+    /// Of triangles that the segment may meet.
+    [[gnu::noinline]] bool isBlocked(const V3d& origin, const V3d& direction, const Leaf& leaf,
+                                     unsigned possible) const {
+        const WatertightRay ray(origin, direction);
+        for (; possible != 0; possible &= possible - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(possible));
+            const std::optional<double> t = ray.intersect(triangles_[leaf.triangle(i)]);
+            if (t && *t < 1)
+                return true;
+        }
+        return false;
+    }
+
+    void prefetch(const Entry& entry) const {
+        if (entry.node->isLeaf(entry.child))
+            Leaf(tree_.leaves.get(), entry.node->leaf(entry.child)).prefetch();
         else
-            __builtin_prefetch(&tree_.nodes[child.nodeIndex()]);
+            __builtin_prefetch(&tree_.nodes[entry.node->children[entry.child]]);
     }
 
     std::span<const Triangle> triangles_;

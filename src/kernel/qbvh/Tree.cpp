@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "kernel/qbvh/Tree.h"
 
+#include "kernel/qbvh/Leaf.h"
 #include "kernel/qbvh/Split.h"
 
 #include <atomic>
@@ -19,7 +20,7 @@ class Builder {
         collectReferences();
         if (count_ == 0)
             return;
-        if (count_ > Child::MOST_ENTRIES)
+        if (count_ > LeafAddress::MOST_ADDRESSES)
             throw std::length_error("more triangles than a leaf can refer to");
         // Every node has an inner node and three leaves of one triangle at worst, see split().
         tree_.nodes = makeKernelArray<Node>(count_ / 3 + 1);
@@ -27,10 +28,12 @@ class Builder {
 #pragma omp single
         buildRoot();
         shrink(tree_.nodes, nodeCount_);
-        tree_.indices = makeKernelArray<std::uint32_t>(count_);
+        tree_.leaves =
+            makeKernelArray<std::uint8_t>(count_ * Leaf::BYTES_PER_TRIANGLE + Leaf::BYTES_BEHIND);
+        const std::uint32_t nodeCount = nodeCount_;
 #pragma omp parallel for
-        for (std::size_t i = 0; i < count_; ++i)
-            tree_.indices[i] = references_[i].triangle;
+        for (std::uint32_t i = 0; i < nodeCount; ++i)
+            writeLeaves(tree_.nodes[i]);
     }
 
   private:
@@ -97,20 +100,34 @@ class Builder {
         for (std::size_t i = 0; i < Node::WIDTH; ++i) {
             const Group& child = groups[std::min(i, count - 1)];
             if (isLeaf(child)) {
-                node.children[i] = Child::leaf(
-                    static_cast<std::uint32_t>(child.references.data() - references_.get()),
-                    static_cast<std::uint32_t>(child.size()));
+                const auto first = child.references.data() - references_.get();
+                node.setLeaf(i, {static_cast<std::uint32_t>(first),
+                                 static_cast<std::uint32_t>(child.size())});
             } else {
                 const std::uint32_t childIndex = nextNode++;
-                node.children[i] = Child::node(childIndex);
+                node.setNode(i, childIndex);
 #pragma omp task default(none) firstprivate(childIndex, child, depth) if (child.size() > TASK_SIZE)
                 buildNode(childIndex, child, depth + 1);
             }
         }
     }
 
+    void writeLeaves(const Node& node) {
+        for (std::size_t child = 0; child < Node::WIDTH; ++child) {
+            if (!node.hasBox(child) || !node.isLeaf(child))
+                continue;
+            const LeafAddress leaf = node.leaf(child);
+            const LeafGrid grid(node, child);
+            for (std::uint32_t i = 0; i < leaf.count(); ++i) {
+                const std::uint32_t triangle = references_[leaf.first() + i].triangle;
+                Leaf::write(tree_.leaves.get(), leaf, i, grid, triangle, triangles_[triangle],
+                            tree_.scale);
+            }
+        }
+    }
+
     static bool isLeaf(const Group& group) {
-        return group.size() <= Child::LARGEST_LEAF;
+        return group.size() <= LeafAddress::MOST_TRIANGLES;
     }
 
     /// Splits the group into at most four, and returns their number. What is too large for a leaf

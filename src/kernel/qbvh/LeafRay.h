@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "kernel/qbvh/Leaf.h"
+#include "kernel/qbvh/TreeRay.h"
+
+#include <array>
+#include <cmath>
+
+namespace bwfirt {
+
+/// A ray prepared for tests against all triangles of a leaf at once, as they stand on its grid.
+///
+/// The test is that of WatertightRay (Woop, Benthin and Wald: "Watertight ray/triangle
+/// intersection", JCGT 2(1), 2013) with bounds on what it cannot know. Half a step is the error of
+/// a coordinate on the grid. As the ray sees them, x, y and t of the vertices are sums of numbers
+/// up to 6, since the ray starts in [-2, 2], and rounding adds less than 26 * 2^-24. Where x and y
+/// are off by dx and dy, the two products of an edge's sign with their difference are off by at
+/// most 2 (dx Y + dy X + dx dy), with X and Y the largest of them.
+class LeafRay {
+  public:
+    explicit LeafRay(const TreeRay& ray)
+        : origin_(__builtin_convertvector(ray.origin, Float4)),
+          shear_(__builtin_convertvector(
+              ray.direction * std::copysign(1.0, ray.direction[ray.axis]), Float4)),
+          sign_(ray.direction[ray.axis] < 0 ? -1.0F : 1.0F),
+          untold_(ray.isFar ? ~0U : 0U) {
+        const auto z = static_cast<std::size_t>(ray.axis);
+        shear_[ray.axis] = 0;
+        x_ = (z + 1) % 3;
+        y_ = (z + 2) % 3;
+        z_ = z;
+    }
+
+    /// A bit for each triangle that the ray may meet with t in (0, tMax), and for each of those
+    /// that it does meet.
+    struct Meeting {
+        unsigned possible;
+        unsigned certain;
+    };
+    [[gnu::always_inline]] Meeting meet(const LeafGrid& grid, const Leaf& leaf, float tMax) const {
+        const auto axisX = static_cast<int>(x_), axisY = static_cast<int>(y_);
+        const auto axisZ = static_cast<int>(z_);
+        // Where the ray passes the plane through the grid's origin across its own axis.
+        const Float4 toOrigin = grid.origin - origin_;
+        const Float4 offset = toOrigin - shear_ * toOrigin[axisZ];
+        const Float4 shear = shear_ * -grid.step[axisZ];
+        const Float4 error = HALF_STEP * (grid.step + absolute(shear)) + ROUNDING;
+        std::array<Float8, 3> x, y, t;
+        for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+            const Float8 stepsZ = loadEight(leaf.row(z_, vertex));
+            const auto across = [&](std::size_t row, int axis) {
+                return multiplyAdd(
+                    loadEight(leaf.row(row, vertex)), inEightLanes(grid.step[axis]),
+                    multiplyAdd(stepsZ, inEightLanes(shear[axis]), inEightLanes(offset[axis])));
+            };
+            x[vertex] = across(x_, axisX);
+            y[vertex] = across(y_, axisY);
+            t[vertex] = multiplyAdd(stepsZ, inEightLanes(sign_ * grid.step[axisZ]),
+                                    inEightLanes(sign_ * offset[axisZ]));
+        }
+        const Float8 u = x[2] * y[1] - y[2] * x[1];
+        const Float8 v = x[0] * y[2] - y[0] * x[2];
+        const Float8 w = x[1] * y[0] - y[1] * x[0];
+        const Float8 least = lesser(lesser(u, v), w), most = greater(greater(u, v), w);
+        const float errorX = 2 * error[axisX], errorY = 2 * error[axisY];
+        const Float8 edgeError = multiplyAdd(
+            inEightLanes(errorX), largest(y),
+            multiplyAdd(inEightLanes(errorY), largest(x), inEightLanes(errorX * errorY)));
+        const Float8 first = lesser(lesser(t[0], t[1]), t[2]);
+        const Float8 last = greater(greater(t[0], t[1]), t[2]);
+        const float errorT = error[axisZ] + ROUNDING * tMax;
+        const Int8 isThere = Int8{0, 1, 2, 3, 4, 5, 6, 7} < static_cast<std::int32_t>(leaf.count());
+        const Int8 possible = isThere & ((least >= -edgeError) | (most <= edgeError)) &
+                              (last >= -errorT) & (first <= tMax + errorT);
+        const Int8 certain = possible & ((least > edgeError) | (most < -edgeError)) &
+                             (first > errorT) & (last < tMax - errorT);
+        return {bitsOf(possible) | (bitsOf(isThere) & untold_), bitsOf(certain) & ~untold_};
+    }
+
+  private:
+    /// And what the grid's own rounding adds.
+    static constexpr float HALF_STEP = 0.502F;
+    static constexpr float ROUNDING = 0x1p-19F;
+
+    [[gnu::always_inline]] static Float8 largest(const std::array<Float8, 3>& a) {
+        return greater(greater(absolute(a[0]), absolute(a[1])), absolute(a[2]));
+    }
+
+    Float4 origin_, shear_;
+    std::size_t x_, y_, z_;  ///< axes, z_ that of the direction's largest component
+    float sign_;             ///< of the direction along z_
+    unsigned untold_;        ///< bits of triangles of which nothing can be said: all or none
+};
+
+}  // namespace bwfirt
