@@ -1,220 +1,138 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "kernel/bih/Tree.h"
 
-#include <omp.h>
+#include "kernel/bih/EmptySpace.h"
+#include "kernel/bih/Grid.h"
+#include "kernel/bih/Keys.h"
 
-#include <atomic>
-#include <limits>
-#include <optional>
 #include <stdexcept>
 
 namespace bwfirt {
 
 namespace {
 
-/// References that become a subtree.
-struct Range {
-    Reference* begin;
-    Reference* end;
-    Box bounds;
-    Box cell;      ///< of the regular grid, with the centres of the boxes
-    Box interval;  ///< what a ray knows of the bounds on its way down
-
-    std::ptrdiff_t size() const { return end - begin; }
-};
-
-struct Plane {
-    int axis;
-    float position;
-};
-
-/// The next plane of the regular grid with references on both sides, as far as the bounds can tell.
-/// Each cell of the grid is halved across its longest side; halves that are empty are left out.
-/// Nothing where a cell is too small to be halved.
-std::optional<Plane> findPlane(Range& range) {
-    while (true) {
-        const int axis = range.cell.longestAxis();
-        const float low = range.cell.low[axis], high = range.cell.high[axis];
-        const float middle = 0.5F * low + 0.5F * high;
-        if (!(low < middle && middle < high))
-            return std::nullopt;
-        if (middle > range.bounds.high[axis])
-            range.cell.high[axis] = middle;
-        else if (middle <= range.bounds.low[axis])
-            range.cell.low[axis] = middle;
-        else
-            return Plane{axis, middle};
-    }
-}
-
 class Builder {
   public:
-    /// @param children room for those of mostInner() nodes
-    Builder(const Reference* references, std::array<Node, 2>* children)
-        : references_(references),
-          children_(children),
-          places_(static_cast<std::size_t>(omp_get_max_threads())) {}
+    Builder(std::span<const Triangle> triangles, const KeyFormat& format, const Keys& keys,
+            Tree& tree, NodePairs& pairs, Box* bounds)
+        : triangles_(triangles),
+          format_(format),
+          keys_(keys),
+          tree_(tree),
+          pairs_(pairs),
+          bounds_(bounds) {}
 
-    /// Room for the children of so many nodes is enough: each node with two children that hold
-    /// triangles may have one in front of it that cuts off empty space.
-    static std::size_t mostInner(std::size_t referenceCount) {
-        return 2 * referenceCount + PLACES * static_cast<std::size_t>(omp_get_max_threads());
-    }
-
-    void build(Node* node, Range range, int depth) {
-        if (range.size() <= LEAF_SIZE) {
-            *node = Node::leaf(static_cast<std::uint32_t>(range.begin - references_),
-                               static_cast<std::uint32_t>(range.size()));
-            return;
+    /// @return the bounds of the triangles
+    Box build(Node& node, std::span<Key> keys, int depth, bool isSorted) {
+        if (keys.size() <= LEAF_SIZE)
+            return makeLeaf(node, keys);
+        if (!isSorted && (keys.front() ^ keys.back()) >> format_.bucketShift() == 0) {
+            sortBucket(keys, keys_.buffer.get() + (keys.data() - keys_.keys.get()), format_);
+            isSorted = true;
         }
-        node = cutOffEmptySpace(node, range);
-        const Split split = chooseSplit(range, depth);
-        Node* const children = makeChildren(node, split.axis, split.first.bounds.high[split.axis],
-                                            split.second.bounds.low[split.axis]);
-        if (range.size() > TASK_SIZE) {
-#pragma omp task
-            build(children, split.first, depth + 1);
+        const auto [axis, firstSize] = chooseSplit(keys, depth);
+        const std::span<Key> firstKeys = keys.first(firstSize),
+                             secondKeys = keys.subspan(firstSize);
+        const std::uint32_t place = pairs_.take();
+        auto& children = pairs_[place];
+        Box first, second;
+        if (keys.size() > TASK_SIZE) {
+#pragma omp task default(shared)
+            first = build(children[0], firstKeys, depth + 1, isSorted);
+            second = build(children[1], secondKeys, depth + 1, isSorted);
+#pragma omp taskwait
         } else {
-            build(children, split.first, depth + 1);
+            first = build(children[0], firstKeys, depth + 1, isSorted);
+            second = build(children[1], secondKeys, depth + 1, isSorted);
         }
-        build(children + 1, split.second, depth + 1);
-    }
-
-    std::size_t innerCount() const {
-        return innerCount_;
+        node =
+            Node::inner(static_cast<std::size_t>(axis), first.high[axis], second.low[axis], place);
+        first.extend(second);
+        return bounds_[place] = first;
     }
 
   private:
-    static constexpr std::uint32_t PLACES = 64;
-    static constexpr std::ptrdiff_t LEAF_SIZE = 8;
-    /// From this depth on ranges are halved, which takes at most 32 more levels.
+    static constexpr std::size_t LEAF_SIZE = 8;
+    /// Longer lists are worth a task of their own.
+    static constexpr std::size_t TASK_SIZE = 4096;
+    /// From this depth on lists are halved, which takes at most 32 more levels.
     static constexpr int MAX_GRID_SPLITS = Tree::MAX_SPLITS - 32;
-    /// A share of the interval that is worth a node of its own when it is empty.
-    static constexpr float MUCH_EMPTY_SPACE = 0.2F;
 
     struct Split {
         int axis;
-        Range first;
-        Range second;
-
-        Split(int axis, const Range& range, const Parts& parts)
-            : axis(axis),
-              first{parts.begin, parts.middle, parts.firstBounds, range.cell, range.interval},
-              second{parts.middle, parts.end, parts.secondBounds, range.cell, range.interval} {
-            first.interval.high[axis] = first.bounds.high[axis];
-            second.interval.low[axis] = second.bounds.low[axis];
-        }
+        std::size_t firstSize;
     };
 
-    Node* makeChildren(Node* parent, int axis, float firstHigh, float secondLow) {
-        auto& [next, end] = places_[static_cast<std::size_t>(omp_get_thread_num())];
-        if (next == end) {
-            next = innerCount_.fetch_add(PLACES);
-            end = next + PLACES;
+    Box makeLeaf(Node& node, std::span<const Key> keys) const {
+        const auto place = static_cast<std::uint32_t>(keys.data() - keys_.keys.get());
+        node = Node::leaf(place, static_cast<std::uint32_t>(keys.size()));
+        Box bounds;
+        for (std::uint32_t i = 0; i < keys.size(); ++i) {
+            const std::uint32_t triangle = format_.triangle(keys[i]);
+            tree_.order[place + i] = triangle;
+            bounds.extend(boxOf(triangles_[triangle]));
         }
-        const std::uint32_t place = next++;
-        *parent = Node::inner(static_cast<std::size_t>(axis), firstHigh, secondLow, place);
-        return children_[place].data();
+        bounds.low[3] = bounds.high[3] = 0;
+        return bounds;
     }
 
-    /// Where the interval is empty over much of its length, the node gets an empty child there.
-    /// @return the node for the range: this one, or its other child
-    Node* cutOffEmptySpace(Node* node, Range& range) {
-        const Floats4 below = range.bounds.low - range.interval.low;
-        const Floats4 above = range.interval.high - range.bounds.high;
-        const Floats4 larger = max(below, above);
-        const Floats4 enough = MUCH_EMPTY_SPACE * (range.interval.high - range.interval.low);
-        const Floats4 empty([&](auto i) { return larger[i] > enough[i] ? larger[i] : 0.0F; });
-        if (none_of(empty > 0))
-            return node;
-
-        int axis = empty[0] > empty[1] ? 0 : 1;
-        axis = empty[axis] > empty[2] ? axis : 2;
-        constexpr float INFINITE = std::numeric_limits<float>::infinity();
-        const float low = range.bounds.low[axis], high = range.bounds.high[axis];
-        if (below[axis] > above[axis]) {
-            range.interval.low[axis] = low;
-            Node* const children = makeChildren(node, axis, -INFINITE, low);
-            children[0] = Node::leaf(0, 0);
-            return &children[1];
-        }
-        range.interval.high[axis] = high;
-        Node* const children = makeChildren(node, axis, high, INFINITE);
-        children[1] = Node::leaf(0, 0);
-        return &children[0];
-    }
-
-    static Split chooseSplit(Range range, int depth) {
-        while (depth < MAX_GRID_SPLITS) {
-            const std::optional<Plane> found = findPlane(range);
-            if (!found)
-                break;
-            const Plane plane = *found;
-            const Parts parts =
-                partition(range.begin, range.end, [plane](const Reference& reference) {
-                    return reference.centre(plane.axis) < plane.position;
-                });
-            if (parts.middle == range.begin) {
-                range.cell.low[plane.axis] = plane.position;
-            } else if (parts.middle == range.end) {
-                range.cell.high[plane.axis] = plane.position;
-            } else {
-                Split split(plane.axis, range, parts);
-                split.first.cell.high[plane.axis] = plane.position;
-                split.second.cell.low[plane.axis] = plane.position;
-                return split;
+    /// Where the first of the bits in which the cells differ changes.
+    Split chooseSplit(std::span<Key> keys, int depth) const {
+        if (depth < MAX_GRID_SPLITS) {
+            if (format_.cell(keys.front()) == format_.cell(keys.back()))
+                refine(keys);
+            const Key difference = format_.cell(keys.front() ^ keys.back());
+            if (difference != 0) {
+                const int bit = std::bit_width(difference) - 1;
+                const auto second = std::ranges::partition_point(
+                    keys, [=, this](Key key) { return (format_.cell(key) >> bit & 1) == 0; });
+                return {Grid::axisOf(bit), static_cast<std::size_t>(second - keys.begin())};
             }
         }
-        const Reference* const middle = range.begin + range.size() / 2;
-        const auto isInFirst = [middle](const Reference& reference) { return &reference < middle; };
-        return {range.bounds.longestAxis(), range, partition(range.begin, range.end, isInFirst)};
+        return {0, keys.size() / 2};
     }
 
-    /// Places for children that a thread has taken and not yet used; in a cache line of its own.
-    struct alignas(64) Places {
-        std::uint32_t next = 0;
-        std::uint32_t end = 0;
-    };
+    /// Makes keys anew that are all in the same cell, by a grid in this cell.
+    void refine(std::span<Key> keys) const {
+        const auto centre = [&](Key key) { return centreOf(triangles_[format_.triangle(key)]); };
+        Box centres;
+        for (const Key key : keys)
+            centres.extend({centre(key), centre(key)});
+        const Grid grid(centres, format_.axisBits());
+        for (Key& key : keys)
+            key = format_.make(grid.cellAround(centre(key)), format_.triangle(key));
+        std::ranges::sort(keys);
+    }
 
-    const Reference* references_;
-    std::array<Node, 2>* children_;
-    KernelVector<Places> places_;  ///< by thread
-    std::atomic<std::uint32_t> innerCount_ = 0;
+    std::span<const Triangle> triangles_;
+    const KeyFormat& format_;
+    const Keys& keys_;
+    Tree& tree_;
+    NodePairs& pairs_;
+    Box* bounds_;  ///< of inner nodes, by the place of their children
 };
 
 }  // namespace
 
 Tree buildTree(std::span<const Triangle> triangles) {
-    const std::size_t count = triangles.size();
-    if (count > Node::MOST_PAIRS / 2)
+    if (triangles.size() > Node::MOST_PAIRS / 2)
         throw std::length_error("more triangles than the hierarchy can number");
+    const KeyFormat format(triangles.size());
+    Keys keys = makeKeys(triangles, format);
+
     Tree tree;
-    auto references = makeKernelArray<Reference>(count);
-    tree.children = makeKernelArray<std::array<Node, 2>>(Builder::mostInner(count));
-    Builder builder(references.get(), tree.children.get());
-    Reference* end = nullptr;
+    tree.order = makeKernelArray<std::uint32_t>(keys.size);
+    NodePairs pairs(keys.size);
+    const auto bounds = makeKernelArray<Box>(pairs.roomFor(keys.size), alignof(Box));
+    Builder builder(triangles, format, keys, tree, pairs, bounds.get());
 #pragma omp parallel
-    {
-#pragma omp for
-        for (std::size_t i = 0; i < count; ++i)
-            new (&references[i]) Reference(triangles[i], static_cast<std::uint32_t>(i));
 #pragma omp single
-        {
-            Reference* const begin = references.get();
-            const Parts parts = partition(begin, begin + count, [](const Reference& reference) {
-                return !reference.boxWithIndex().isEmpty();
-            });
-            end = parts.middle;
-            tree.bounds = parts.firstBounds;
-            builder.build(&tree.root, {begin, end, tree.bounds, tree.bounds, tree.bounds}, 0);
-        }
-    }
-    shrink(tree.children, builder.innerCount());
-    const auto size = static_cast<std::size_t>(end - references.get());
-    tree.order = makeKernelArray<std::uint32_t>(size);
-#pragma omp parallel for
-    for (std::size_t i = 0; i < size; ++i)
-        tree.order[i] = references[i].triangle();
+    tree.bounds = builder.build(tree.root, {keys.keys.get(), keys.size}, 0, false);
+
+    keys = {};  // the copy takes its room
+    NodePairs targets(2 * pairs.size());
+    tree.root = cutOffEmptySpace(tree.root, tree.bounds, pairs, bounds.get(), targets);
+    tree.children = targets.release();
     return tree;
 }
 
