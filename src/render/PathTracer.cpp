@@ -10,6 +10,22 @@
 
 namespace bwfirt {
 
+namespace {
+
+/// Has a triangle fetched, which may stand in two cache lines.
+void prefetch(const Triangle& triangle) {
+    __builtin_prefetch(&triangle.vertices.front());
+    __builtin_prefetch(&triangle.vertices.back());
+}
+
+Sample& takeFirst(std::span<Sample>& samples) {
+    Sample& first = samples.front();
+    samples = samples.subspan(1);
+    return first;
+}
+
+}  // namespace
+
 PathTracer::PathTracer(const Scene& scene, const RTKernel& kernel, const Camera& camera, int width,
                        int height, int inFlight)
     : scene_(scene),
@@ -19,13 +35,6 @@ PathTracer::PathTracer(const Scene& scene, const RTKernel& kernel, const Camera&
       sensorResponse_(camera.sensorResponse),
       brdf_(scene.reflectance / std::numbers::pi),
       inFlight_(static_cast<std::size_t>(inFlight)) {}
-
-void PathTracer::trace(std::span<Sample> samples, RayCounts& counts) const {
-    if (inFlight_ == 1)
-        traceOneByOne(samples, counts);
-    else
-        traceInFlight(samples, counts);
-}
 
 PathTracer::Path PathTracer::begin(Sample& sample) const {
     Path path{&sample, Random(sample.seed), {}, 0, 0, true, {}, {}, 0};
@@ -77,99 +86,96 @@ void PathTracer::end(const Path& path) const {
     path.sample->value = V3d(sensorResponse_ * path.radiance);
 }
 
-template <typename Intersect, typename IsVisible>
-void PathTracer::follow(Sample& sample, const Intersect& intersect,
-                        const IsVisible& isVisible) const {
-    Path path = begin(sample);
-    for (; path.goesOn; ++path.bounce) {
-        arrive(path, intersect(path));
-        if (path.contribution > 0 && isVisible(path))
-            path.radiance += path.contribution;
-    }
-    end(path);
-}
-
-// Flattened, the steps of a path hand it to each other in registers, which saves an eighth of the
-// framework's time (build/framework-cost).
-[[gnu::flatten]] void PathTracer::traceOneByOne(std::span<Sample> samples,
-                                                RayCounts& counts) const {
-    for (Sample& sample : samples) {
-        follow(
-            sample,
-            [&](const Path& path) {
-                ++counts.intersect;
-                return kernel_.kernelIntersectGeometry(path.ray);
-            },
-            [&](const Path& path) {
-                ++counts.visibility;
-                return kernel_.kernelVisibility(path.x, path.y);
-            });
-    }
-}
-
 void PathTracer::trace(std::span<Sample> samples, RayCounts& counts, RayListener& listener) const {
     for (Sample& sample : samples) {
-        follow(
-            sample,
-            [&](const Path& path) {
-                ++counts.intersect;
-                const std::optional<Hit> hit = kernel_.kernelIntersectGeometry(path.ray);
-                listener.intersected(path.ray, path.bounce, hit);
-                return hit;
-            },
-            [&](const Path& path) {
-                ++counts.visibility;
+        Path path = begin(sample);
+        for (; path.goesOn; ++path.bounce) {
+            const Ray ray = path.ray;
+            const std::optional<Hit> hit = kernel_.kernelIntersectGeometry(ray);
+            ++counts.intersect;
+            listener.intersected(ray, path.bounce, hit);
+            arrive(path, hit);
+            if (path.contribution > 0) {
                 const bool isVisible = kernel_.kernelVisibility(path.x, path.y);
+                ++counts.visibility;
                 listener.connected(path.x, path.y, path.bounce, isVisible);
-                return isVisible;
-            });
+                if (isVisible)
+                    path.radiance += path.contribution;
+            }
+        }
+        end(path);
     }
 }
 
-void PathTracer::traceInFlight(std::span<Sample> samples, RayCounts& counts) const {
+void PathTracer::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
+    if (inFlight_ == 1)
+        kernel_.RTKernel::kernelIntersectMany(rays, hits);
+    else
+        kernel_.kernelIntersectMany(rays, hits);
+    for (const std::optional<Hit>& hit : hits)
+        if (hit)
+            prefetch(scene_.triangles[hit->triangle]);
+}
+
+void PathTracer::see(std::span<const RTKernel::Segment> segments, std::span<bool> visible) const {
+    if (inFlight_ == 1)
+        kernel_.RTKernel::kernelVisibleMany(segments, visible);
+    else
+        kernel_.kernelVisibleMany(segments, visible);
+}
+
+void PathTracer::replaceEnded(std::vector<Path>& paths, std::span<Sample>& samples) const {
+    for (std::size_t i = 0; i < paths.size();) {
+        if (paths[i].goesOn) {
+            ++i;
+            continue;
+        }
+        end(paths[i]);
+        if (!samples.empty()) {
+            paths[i] = begin(takeFirst(samples));
+        } else {
+            paths[i] = paths.back();
+            paths.pop_back();
+        }
+    }
+}
+
+// Flattened, the steps of a path hand it to each other in registers (build/framework-cost).
+[[gnu::flatten]] void PathTracer::trace(std::span<Sample> samples, RayCounts& counts) const {
+    const std::size_t most = inFlight_ == 1 ? PATHS_IN_TURNS : inFlight_;
     std::vector<Path> paths;
-    std::vector<Ray> rays(inFlight_);
-    std::vector<std::optional<Hit>> hits(inFlight_);
-    std::vector<RTKernel::Segment> segments(inFlight_);
-    std::vector<std::size_t> connected(inFlight_);
-    const auto visible = std::make_unique<bool[]>(inFlight_);
-    paths.reserve(inFlight_);
+    std::vector<Ray> rays(most);
+    std::vector<std::optional<Hit>> hits(most);
+    std::vector<RTKernel::Segment> segments(most);
+    std::vector<std::size_t> connected(most);
+    const auto visible = std::make_unique<bool[]>(most);
+    paths.reserve(most);
 
-    std::size_t begun = 0;
-    while (true) {
-        while (paths.size() < inFlight_ && begun < samples.size())
-            paths.push_back(begin(samples[begun++]));
-        if (paths.empty())
-            return;
-
-        for (std::size_t i = 0; i < paths.size(); ++i)
+    while (paths.size() < most && !samples.empty())
+        paths.push_back(begin(takeFirst(samples)));
+    while (!paths.empty()) {
+        const std::size_t count = paths.size();
+        for (std::size_t i = 0; i < count; ++i)
             rays[i] = paths[i].ray;
-        kernel_.kernelIntersectMany({rays.data(), paths.size()}, {hits.data(), paths.size()});
-        counts.intersect += paths.size();
+        intersect({rays.data(), count}, {hits.data(), count});
+        counts.intersect += count;
 
         std::size_t connections = 0;
-        for (std::size_t i = 0; i < paths.size(); ++i) {
-            arrive(paths[i], hits[i]);
-            if (paths[i].contribution > 0) {
-                connected[connections] = i;
-                segments[connections++] = {paths[i].x, paths[i].y};
-            }
-        }
-
-        kernel_.kernelVisibleMany({segments.data(), connections}, {visible.get(), connections});
-        counts.visibility += connections;
-        for (std::size_t i = 0; i < connections; ++i) {
-            Path& path = paths[connected[i]];
-            if (visible[i])
-                path.radiance += path.contribution;
-        }
-
-        std::erase_if(paths, [&](Path& path) {
+        for (std::size_t i = 0; i < count; ++i) {
+            Path& path = paths[i];
+            arrive(path, hits[i]);
             ++path.bounce;
-            if (!path.goesOn)
-                end(path);
-            return !path.goesOn;
-        });
+            connected[connections] = i;
+            segments[connections] = {path.x, path.y};
+            connections += path.contribution > 0 ? 1 : 0;
+        }
+        see({segments.data(), connections}, {visible.get(), connections});
+        counts.visibility += connections;
+        for (std::size_t i = 0; i < connections; ++i)
+            if (visible[i])
+                paths[connected[i]].radiance += paths[connected[i]].contribution;
+
+        replaceEnded(paths, samples);
     }
 }
 

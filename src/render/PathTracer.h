@@ -9,6 +9,7 @@
 #include "scene/Scene.h"
 
 #include <optional>
+#include <vector>
 
 namespace bwfirt {
 
@@ -34,17 +35,23 @@ class PathTracer : public Integrator {
     /// Paths that a thread may keep in flight.
     static constexpr int MAX_IN_FLIGHT = 1024;
 
-    /// @param inFlight 1 asks the kernel ray by ray; a larger number keeps as many paths going on
-    ///        each thread and asks for their rays together
+    /// @param inFlight 1 asks the kernel ray by ray, for a few paths in turns; a larger number
+    /// keeps
+    ///        so many paths going on each thread and asks for their rays together
     PathTracer(const Scene& scene, const RTKernel& kernel, const Camera& camera, int width,
                int height, int inFlight);
 
     void trace(std::span<Sample> samples, RayCounts& counts) const override;
 
-    /// The same ray by ray, with somebody who listens.
+    /// The same ray by ray, path by path, with somebody who listens.
     void trace(std::span<Sample> samples, RayCounts& counts, RayListener& listener) const;
 
   private:
+    /// Paths that a thread follows in turns where it asks ray by ray. A path's next ray depends on
+    /// the answer to its last one; with only one path a processor could do none of the path
+    /// tracer's work and none of the kernel's while it waits for the other.
+    static constexpr std::size_t PATHS_IN_TURNS = 16;
+
     /// A path between two questions to the kernel.
     struct Path {
         Sample* sample;
@@ -59,11 +66,9 @@ class PathTracer : public Integrator {
 
     Path begin(Sample& sample) const;
 
-    /// The ray met a surface, or none: makes the path ready for V and then for h.
-    ///
-    /// Where the path goes on is settled before V is asked, and before it is known whether V has to
-    /// be: nothing but the two points and the ray then waits in memory for the kernel's answer, and
-    /// a processor that guessed wrong whether V is asked has not lost the work on the direction.
+    /// The ray met a surface, or none: makes the path ready for V and for h after it. Where the
+    /// path goes on is settled before it is known whether V has to be asked: a processor that
+    /// guesses this wrong has then not lost the work on the direction.
     void arrive(Path& path, const std::optional<Hit>& hit) const;
 
     /// Chooses whether the path goes on from path.x, and where.
@@ -74,13 +79,12 @@ class PathTracer : public Integrator {
 
     void end(const Path& path) const;
 
-    /// Takes a path from its beginning to its end.
-    /// @param intersect h of the path's ray; isVisible V of its connection
-    template <typename Intersect, typename IsVisible>
-    void follow(Sample& sample, const Intersect& intersect, const IsVisible& isVisible) const;
+    /// Ask h and V, ray by ray or for all rays together.
+    void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
+    void see(std::span<const RTKernel::Segment> segments, std::span<bool> visible) const;
 
-    void traceOneByOne(std::span<Sample> samples, RayCounts& counts) const;
-    void traceInFlight(std::span<Sample> samples, RayCounts& counts) const;
+    /// Ends the paths that go on no more; the next samples' paths take their places.
+    void replaceEnded(std::vector<Path>& paths, std::span<Sample>& samples) const;
 
     const Scene& scene_;
     const RTKernel& kernel_;
