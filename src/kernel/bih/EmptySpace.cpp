@@ -9,11 +9,12 @@ namespace {
 
 class EmptySpace {
   public:
-    EmptySpace(const NodePairs& sources, const Box* bounds, NodePairs& targets)
-        : sources_(sources), bounds_(bounds), targets_(targets) {}
+    EmptySpace(const NodePairs& sources, std::size_t longLists, const Box* bounds,
+               NodePairs& targets)
+        : sources_(sources), longLists_(longLists), bounds_(bounds), targets_(targets) {}
 
     /// @param interval what a ray knows of the bounds on its way down
-    void copy(const Node& source, Node* target, Box interval, int depth) {
+    void copy(const Node& source, Node* target, Box interval) {
         if (source.isLeaf()) {
             *target = source;
             return;
@@ -26,17 +27,16 @@ class EmptySpace {
         const std::uint32_t place = targets_.take();
         Node* const to = targets_[place].data();
         *target = Node::inner(source.axis(), source.firstHigh(), source.secondLow(), place);
-        if (depth < PARALLEL_DEPTH) {
-#pragma omp task firstprivate(first, depth)
-            copy(from[0], to, first, depth + 1);
+        if (source.children() < longLists_) {
+#pragma omp task firstprivate(first)
+            copy(from[0], to, first);
         } else {
-            copy(from[0], to, first, depth + 1);
+            copy(from[0], to, first);
         }
-        copy(from[1], to + 1, second, depth + 1);
+        copy(from[1], to + 1, second);
     }
 
   private:
-    static constexpr int PARALLEL_DEPTH = 8;
     /// A share of the interval that is worth a node of its own when it is empty.
     static constexpr float MUCH_EMPTY_SPACE = 0.2F;
 
@@ -70,6 +70,7 @@ class EmptySpace {
     }
 
     const NodePairs& sources_;
+    std::size_t longLists_;
     const Box* bounds_;
     NodePairs& targets_;
 };
@@ -77,12 +78,12 @@ class EmptySpace {
 }  // namespace
 
 Node cutOffEmptySpace(const Node& root, const Box& rootBounds, const NodePairs& source,
-                      const Box* bounds, NodePairs& target) {
-    EmptySpace emptySpace(source, bounds, target);
+                      std::size_t longLists, const Box* bounds, NodePairs& target) {
+    EmptySpace emptySpace(source, longLists, bounds, target);
     Node result;
 #pragma omp parallel
 #pragma omp single
-    emptySpace.copy(root, &result, rootBounds, 0);
+    emptySpace.copy(root, &result, rootBounds);
     return result;
 }
 

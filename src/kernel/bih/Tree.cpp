@@ -5,13 +5,31 @@
 #include "kernel/bih/Grid.h"
 #include "kernel/bih/Keys.h"
 
+#include <optional>
+#include <ranges>
 #include <stdexcept>
+#include <vector>
 
 namespace bwfirt {
 
 namespace {
 
 class Builder {
+    /// A node to be made, and the keys of its triangles.
+    struct Part {
+        Node* node;
+        std::span<Key> keys;
+        int depth;
+        bool isSorted;
+    };
+
+    /// The two parts of a part, whose nodes are the pair at `place`.
+    struct Division {
+        int axis;
+        std::uint32_t place;
+        std::array<Part, 2> parts;
+    };
+
   public:
     Builder(std::span<const Triangle> triangles, const KeyFormat& format, const Keys& keys,
             Tree& tree, NodePairs& pairs, Box* bounds)
@@ -22,41 +40,79 @@ class Builder {
           pairs_(pairs),
           bounds_(bounds) {}
 
-    /// @return the bounds of the triangles
-    Box build(Node& node, std::span<Key> keys, int depth, bool isSorted) {
-        if (keys.size() <= LEAF_SIZE)
-            return makeLeaf(node, keys);
-        if (!isSorted && (keys.front() ^ keys.back()) >> format_.bucketShift() == 0) {
-            sortBucket(keys, keys_.buffer.get() + (keys.data() - keys_.keys.get()), format_);
-            isSorted = true;
+    /// Long lists are divided one after the other, which takes little time: most of the keys need
+    /// not be looked at. The short lists that come of it are built side by side. A task for each
+    /// long list would have to wait for the tasks of its parts.
+    /// @return how many lists were long; the children of their nodes have the first places
+    std::size_t build(Node& root, Box& bounds) {
+        struct TopPart {
+            Part part;
+            Box bounds;
+            std::optional<Division> division;
+            std::size_t children = 0;  ///< index of the first of two
+        };
+        const std::size_t longSize = std::max(keys_.size / SHORT_LISTS, LEAF_SIZE) + 1;
+        std::vector<TopPart> top{{{&root, {keys_.keys.get(), keys_.size}, 0, false}, {}, {}}};
+        for (std::size_t i = 0; i < top.size(); ++i) {
+            if (top[i].part.keys.size() < longSize)
+                continue;
+            const Division division = divide(top[i].part);
+            top[i].division = division;
+            top[i].children = top.size();
+            for (const Part& part : division.parts)
+                top.push_back({part, {}, {}});
         }
-        const auto [axis, firstSize] = chooseSplit(keys, depth);
-        const std::span<Key> firstKeys = keys.first(firstSize),
-                             secondKeys = keys.subspan(firstSize);
-        const std::uint32_t place = pairs_.take();
-        auto& children = pairs_[place];
-        Box first, second;
-        if (keys.size() > TASK_SIZE) {
-#pragma omp task default(shared)
-            first = build(children[0], firstKeys, depth + 1, isSorted);
-            second = build(children[1], secondKeys, depth + 1, isSorted);
-#pragma omp taskwait
-        } else {
-            first = build(children[0], firstKeys, depth + 1, isSorted);
-            second = build(children[1], secondKeys, depth + 1, isSorted);
-        }
-        node =
-            Node::inner(static_cast<std::size_t>(axis), first.high[axis], second.low[axis], place);
-        first.extend(second);
-        return bounds_[place] = first;
+#pragma omp parallel for schedule(dynamic)
+        for (TopPart& one : top)
+            if (!one.division)
+                one.bounds = build(one.part);
+        for (TopPart& one : top | std::views::reverse)
+            if (one.division)
+                one.bounds = join(*one.part.node, *one.division, top[one.children].bounds,
+                                  top[one.children + 1].bounds);
+        bounds = top.front().bounds;
+        return top.size() / 2;
     }
 
   private:
     static constexpr std::size_t LEAF_SIZE = 8;
-    /// Longer lists are worth a task of their own.
-    static constexpr std::size_t TASK_SIZE = 4096;
+    /// Lists are short where there is room for so many of them.
+    static constexpr std::size_t SHORT_LISTS = 64;
     /// From this depth on lists are halved, which takes at most 32 more levels.
     static constexpr int MAX_GRID_SPLITS = Tree::MAX_SPLITS - 32;
+
+    Box build(const Part& part) {
+        if (part.keys.size() <= LEAF_SIZE)
+            return makeLeaf(*part.node, part.keys);
+        const Division division = divide(part);
+        const Box first = build(division.parts[0]), second = build(division.parts[1]);
+        return join(*part.node, division, first, second);
+    }
+
+    Division divide(const Part& part) {
+        const auto [node, keys, depth, wasSorted] = part;
+        const bool isSorted =
+            wasSorted || (keys.front() ^ keys.back()) >> format_.bucketShift() == 0;
+        if (isSorted && !wasSorted)
+            sortBucket(keys, keys_.buffer.get() + (keys.data() - keys_.keys.get()), format_);
+        const auto [axis, firstSize] = chooseSplit(keys, depth);
+        const std::uint32_t place = pairs_.take();
+        NodePair& nodes = pairs_[place];
+        return {axis,
+                place,
+                {Part{&nodes[0], keys.first(firstSize), depth + 1, isSorted},
+                 Part{&nodes[1], keys.subspan(firstSize), depth + 1, isSorted}}};
+    }
+
+    /// Makes the node of both parts. @return its bounds
+    Box join(Node& node, const Division& division, const Box& first, const Box& second) {
+        const auto [axis, place, parts] = division;
+        node =
+            Node::inner(static_cast<std::size_t>(axis), first.high[axis], second.low[axis], place);
+        bounds_[place] = first;
+        bounds_[place].extend(second);
+        return bounds_[place];
+    }
 
     struct Split {
         int axis;
@@ -125,13 +181,11 @@ Tree buildTree(std::span<const Triangle> triangles) {
     NodePairs pairs(keys.size);
     const auto bounds = makeKernelArray<Box>(pairs.roomFor(keys.size), alignof(Box));
     Builder builder(triangles, format, keys, tree, pairs, bounds.get());
-#pragma omp parallel
-#pragma omp single
-    tree.bounds = builder.build(tree.root, {keys.keys.get(), keys.size}, 0, false);
+    const std::size_t longLists = builder.build(tree.root, tree.bounds);
 
     keys = {};  // the copy takes its room
     NodePairs targets(2 * pairs.size());
-    tree.root = cutOffEmptySpace(tree.root, tree.bounds, pairs, bounds.get(), targets);
+    tree.root = cutOffEmptySpace(tree.root, tree.bounds, pairs, longLists, bounds.get(), targets);
     tree.children = targets.release();
     return tree;
 }
