@@ -35,9 +35,9 @@ class PathTracer : public Integrator {
     /// Paths that a thread may keep in flight.
     static constexpr int MAX_IN_FLIGHT = 1024;
 
-    /// @param inFlight paths for which each thread asks the kernel together; 1 asks ray by ray, for
-    /// a
-    ///        few paths in turns
+    /// @param inFlight paths for which each thread asks the kernel together; 1: ray by ray, for a
+    /// few
+    ///        paths in turns
     PathTracer(const Scene& scene, const RTKernel& kernel, const Camera& camera, int width,
                int height, int inFlight);
 
