@@ -35,8 +35,7 @@ class PathTracer : public Integrator {
     /// Paths that a thread may keep in flight.
     static constexpr int MAX_IN_FLIGHT = 1024;
 
-    /// @param inFlight paths for which each thread asks the kernel together; 1: ray by ray, for a
-    /// few
+    /// @param inFlight paths for which each thread asks the kernel together; 1: ray by ray, a few
     ///        paths in turns
     PathTracer(const Scene& scene, const RTKernel& kernel, const Camera& camera, int width,
                int height, int inFlight);
