@@ -46,7 +46,7 @@ Key keyOf(const Triangle& triangle, std::size_t index, const Grid& grid, const K
 }  // namespace
 
 Floats4 centreOf(const Triangle& triangle) {
-    const auto& [a, b, c] = triangle.vertices;
+    const V3f &a = triangle.vertices[0], &b = triangle.vertices[1], &c = triangle.vertices[2];
     return Floats4([&](auto i) {
         if constexpr (i == 3)
             return 0.0F;

@@ -6,7 +6,6 @@
 #include "kernel/bih/Keys.h"
 
 #include <optional>
-#include <ranges>
 #include <stdexcept>
 #include <vector>
 
@@ -66,10 +65,10 @@ class Builder {
         for (TopPart& one : top)
             if (!one.division)
                 one.bounds = build(one.part);
-        for (TopPart& one : top | std::views::reverse)
-            if (one.division)
-                one.bounds = join(*one.part.node, *one.division, top[one.children].bounds,
-                                  top[one.children + 1].bounds);
+        for (auto one = top.rbegin(); one != top.rend(); ++one)
+            if (one->division)
+                one->bounds = join(*one->part.node, *one->division, top[one->children].bounds,
+                                   top[one->children + 1].bounds);
         bounds = top.front().bounds;
         return top.size() / 2;
     }
