@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "kernel/qbvh/Split.h"
 
+#include "kernel/qbvh/Node.h"
+
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -93,8 +95,10 @@ struct Plane {
     int firstOfSecond;  ///< slice
 };
 
-float blocks(std::size_t count) {
-    return static_cast<float>((count + 3) / 4);
+/// How many leaves take so many triangles.
+float leaves(std::size_t count) {
+    constexpr std::size_t MOST = LeafAddress::MOST_TRIANGLES;
+    return static_cast<float>((count + MOST - 1) / MOST);
 }
 
 std::optional<Plane> cheapestPlane(const Bins& bins, const Slices& slices) {
@@ -109,13 +113,13 @@ std::optional<Plane> cheapestPlane(const Bins& bins, const Slices& slices) {
         for (std::size_t i = slices.count() - 1; i > 0; --i) {
             above.merge(row[i]);
             costsAbove[i] = above.count == 0 ? std::numeric_limits<float>::infinity()
-                                             : halfArea(above.bounds) * blocks(above.count);
+                                             : halfArea(above.bounds) * leaves(above.count);
         }
         for (std::size_t i = 1; i < slices.count(); ++i) {
             below.merge(row[i - 1]);
             if (below.count == 0)
                 continue;
-            const float cost = halfArea(below.bounds) * blocks(below.count) + costsAbove[i];
+            const float cost = halfArea(below.bounds) * leaves(below.count) + costsAbove[i];
             if (cost < least) {
                 least = cost;
                 cheapest = Plane{axis, static_cast<int>(i)};
