@@ -46,9 +46,11 @@ inline bool isFinite(const Triangle& triangle) {
 }
 
 /// False for a triangle that no ray can hit: one without area or with a coordinate that is not
-/// finite.
+/// finite, with which the normal is not finite either.
 inline bool hasArea(const Triangle& triangle) {
-    return isFinite(triangle) && area(triangle) > 0;
+    const V3d normal = edgeCross(triangle);
+    const double lengthSquared = normal.dot(normal);
+    return lengthSquared > 0 && std::isfinite(lengthSquared);
 }
 
 }  // namespace bwfirt

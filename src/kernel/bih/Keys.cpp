@@ -6,7 +6,6 @@
 #include <omp.h>
 
 #include <array>
-#include <limits>
 #include <utility>
 
 namespace bwfirt {
@@ -34,11 +33,8 @@ Box boundsOfCentres(std::span<const Triangle> triangles) {
     return bounds;
 }
 
-/// A triangle that hasArea() has a finite normal, which is not 0.
 Key keyOf(const Triangle& triangle, std::size_t index, const Grid& grid, const KeyFormat& format) {
-    const V3d normal = edgeCross(triangle);
-    const double squared = normal.dot(normal);
-    if (!(squared > 0 && squared < std::numeric_limits<double>::infinity()))
+    if (!hasArea(triangle))
         return NO_KEY;
     return format.make(grid.cellAround(centreOf(triangle)), static_cast<std::uint32_t>(index));
 }

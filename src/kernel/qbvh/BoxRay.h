@@ -7,7 +7,6 @@
 
 #include <array>
 #include <bit>
-#include <cstring>
 
 namespace bwfirt {
 

@@ -12,9 +12,9 @@ struct Tree {
     static constexpr int MAX_SAH_DEPTH = 48;
     static constexpr int MAX_DEPTH = MAX_SAH_DEPTH + 32;
 
-    KernelArray<Node> nodes;  ///< the root first; none for a scene without area
-    KernelArray<std::uint8_t> leaves;
-    double scale = 1;  ///< from the scene's coordinates to those of the nodes
+    KernelArray<Node> nodes;           ///< the root first; none for a scene without area
+    KernelArray<std::uint8_t> leaves;  ///< see Leaf
+    double scale = 1;                  ///< from the scene's coordinates to those of the nodes
 };
 
 Tree buildTree(std::span<const Triangle> triangles);
