@@ -49,7 +49,7 @@ TEST(Rays, RaysThroughGridPointsHitTheGrid) {
                 const Ray ray{V3f(target.x, target.y, z), V3f(0, 0, z > 0 ? -1 : 1)};
                 const auto hit = kernel->kernelIntersectGeometry(ray);
                 ASSERT_TRUE(hit) << target;
-                ASSERT_EQ(hit->distance, std::abs(z)) << target;
+                ASSERT_FLOAT_EQ(hit->distance, std::abs(z)) << target;
                 ASSERT_FALSE(kernel->kernelVisibility(ray.origin, V3f(target.x, target.y, -z)));
             }
         }
