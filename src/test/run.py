@@ -79,6 +79,8 @@ def main() -> int:
     # for each other. It is not instrumented, so that its own memory would look like races.
     os.environ['ASAN_OPTIONS'] = 'allocator_may_return_null=1'
     os.environ['TSAN_OPTIONS'] = 'allocator_may_return_null=1:ignore_noninstrumented_modules=1'
+    # Threads that have nothing to do sleep, and leave the processor to the tests beside them.
+    os.environ['OMP_WAIT_POLICY'] = 'passive'
     # Many tests wait, for a window or a browser: one more than processors keeps these busy.
     with (tempfile.TemporaryDirectory() as scratch,
           ThreadPoolExecutor(os.cpu_count() + 1) as side_by_side):

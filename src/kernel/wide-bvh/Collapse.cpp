@@ -44,15 +44,7 @@ Collapse::Collapse(std::span<const Triangle> triangles, const BinaryTree& tree)
 #pragma omp parallel
 #pragma omp single
     descend(0, 0);
-#pragma omp parallel
-#pragma omp single
-    measure(0, 0);
-}
-
-void Collapse::write(Line* lines) const {
-#pragma omp parallel
-#pragma omp single
-    write(0, lines, 0, 0);
+    measure();
 }
 
 /// Weighs all that is below a node. No task waits for another, which would leave its thread idle
@@ -133,7 +125,7 @@ std::size_t Collapse::shareOfFirst(const BinaryNode& node, std::size_t most) con
 Collapse::Children Collapse::childrenOf(std::uint32_t index) const {
     Children children;
     if (weights_[index].isLeaf) {  // the root
-        children.nodes[children.count++] = index;
+        children.add(index);
         return children;
     }
     const BinaryNode& node = tree_.nodes[index];
@@ -148,7 +140,7 @@ void Collapse::split(std::uint32_t index, std::size_t most, Children& children) 
     while (most > 1 && costs[most - 2] == costs[most - 1])
         --most;
     if (most == 1) {
-        children.nodes[children.count++] = index;
+        children.add(index);
         return;
     }
     const BinaryNode& node = tree_.nodes[index];
@@ -157,29 +149,58 @@ void Collapse::split(std::uint32_t index, std::size_t most, Children& children) 
     split(node.first + 1, most - share, children);
 }
 
-std::size_t Collapse::measure(std::uint32_t index, int depth) {
-    const Children children = childrenOf(index);
-    std::array<std::size_t, WIDTH> sizes;
-    for (std::size_t i = 0; i < children.count; ++i) {
-        const std::uint32_t child = children.nodes[i];
-        if (weights_[child].isLeaf)
-            sizes[i] = weights_[child].leafLines;
-        else
-#pragma omp task if (depth < PARALLEL_WIDE_DEPTH) default(shared) firstprivate(i, child)
-            sizes[i] = measure(child, depth + 1);
-    }
-#pragma omp taskwait
-    sizes_[index] = sizeof(Node) / sizeof(Line) +
-                    std::accumulate(sizes.begin(), sizes.begin() + children.count, std::size_t{0});
-    return sizes_[index];
+void Collapse::measure() {
+    KernelVector<std::uint32_t> nodes{0};
+    std::size_t top = 0;
+    for (; top < nodes.size() && nodes.size() < PARTS; ++top)
+        for (const std::uint32_t child : childrenOf(nodes[top]))
+            if (!weights_[child].isLeaf)
+                nodes.push_back(child);
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t i = top; i < nodes.size(); ++i)
+        measureBelow(nodes[i]);
+    while (top-- > 0)
+        measure(nodes[top], childrenOf(nodes[top]));
 }
 
-void Collapse::write(std::uint32_t index, Line* lines, std::size_t first, int depth) const {
+void Collapse::measureBelow(std::uint32_t index) {
     const Children children = childrenOf(index);
+    for (const std::uint32_t child : children)
+        if (!weights_[child].isLeaf)
+            measureBelow(child);
+    measure(index, children);
+}
+
+void Collapse::measure(std::uint32_t index, const Children& children) {
+    std::size_t size = sizeof(Node) / sizeof(Line);
+    for (const std::uint32_t child : children)
+        size += weights_[child].isLeaf ? weights_[child].leafLines : sizes_[child];
+    sizes_[index] = size;
+}
+
+void Collapse::write(Line* lines) const {
+    KernelVector<Part> parts{{0, 0}};
+    std::size_t top = 0;
+    for (; top < parts.size() && parts.size() < PARTS; ++top)
+        for (const Part& child : write(parts[top], lines))
+            parts.push_back(child);
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t i = top; i < parts.size(); ++i)
+        writeBelow(parts[i], lines);
+}
+
+void Collapse::writeBelow(const Part& part, Line* lines) const {
+    for (const Part& child : write(part, lines))
+        writeBelow(child, lines);
+}
+
+Collapse::Some<Collapse::Part> Collapse::write(const Part& part, Line* lines) const {
+    const Children children = childrenOf(part.node);
+    Some<Part> others;
     Node node = emptyNode(Child::LEAF | static_cast<std::uint32_t>(size()));
-    std::size_t next = first + sizeof(Node) / sizeof(Line);
+    std::size_t next = part.line + sizeof(Node) / sizeof(Line);
     const auto place = [&](std::size_t i, std::uint32_t bits, std::size_t size) {
-        const Bounds& bounds = tree_.nodes[children.nodes[i]].bounds;
+        const Bounds& bounds = tree_.nodes[children[i]].bounds;
         for (int axis = 0; axis < 3; ++axis) {
             node.planes[static_cast<std::size_t>(axis)][i] = bounds.low[axis];
             node.planes[static_cast<std::size_t>(axis) + 3][i] = bounds.high[axis];
@@ -187,25 +208,24 @@ void Collapse::write(std::uint32_t index, Line* lines, std::size_t first, int de
         node.children[i] = static_cast<std::uint32_t>(next) | bits;
         next += size;
     };
-    for (std::size_t i = 0; i < children.count; ++i) {
-        const Weight& weight = weights_[children.nodes[i]];
+    for (std::size_t i = 0; i < children.size(); ++i) {
+        const Weight& weight = weights_[children[i]];
         if (!weight.isLeaf)
             continue;
         LeafContent content;
-        content.collect(triangles_, tree_, children.nodes[i]);
+        content.collect(triangles_, tree_, children[i]);
         content.write(&lines[next]);
         place(i, Child::LEAF, weight.leafLines);
     }
-    for (std::size_t i = 0; i < children.count; ++i) {
-        const std::uint32_t child = children.nodes[i];
+    for (std::size_t i = 0; i < children.size(); ++i) {
+        const std::uint32_t child = children[i];
         if (weights_[child].isLeaf)
             continue;
-#pragma omp task if (depth < PARALLEL_WIDE_DEPTH) default(shared) firstprivate(child, next)
-        write(child, lines, next, depth + 1);
+        others.add({child, next});
         place(i, 0, sizes_[child]);
     }
-    std::memcpy(&lines[first], &node, sizeof node);
-#pragma omp taskwait
+    std::memcpy(&lines[part.line], &node, sizeof node);
+    return others;
 }
 
 }  // namespace bwfirt::wide

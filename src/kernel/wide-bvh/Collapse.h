@@ -29,7 +29,9 @@ class Collapse {
 
     /// Binary nodes at this depth and below it are left to the thread that has come to them.
     static constexpr int PARALLEL_DEPTH = 16;
-    static constexpr int PARALLEL_WIDE_DEPTH = 3;
+    /// Wide nodes are measured and written one after the other from the root on, until there is
+    /// room for so many threads below them.
+    static constexpr std::size_t PARTS = 256;
 
     struct Weight {
         /// costs[i] is the least cost of what is below a binary node, where it becomes at most
@@ -40,21 +42,44 @@ class Collapse {
         bool isLeaf;             ///< whether it is best made a leaf
     };
 
+    /// As many as a wide node has children.
+    template <typename T>
+    class Some {
+      public:
+        void add(const T& one) { items_[count_++] = one; }
+        std::size_t size() const { return count_; }
+        const T& operator[](std::size_t i) const { return items_[i]; }
+        auto begin() const { return items_.begin(); }
+        auto end() const { return items_.begin() + count_; }
+
+      private:
+        std::array<T, WIDTH> items_;
+        std::size_t count_ = 0;
+    };
+    using Children = Some<std::uint32_t>;  ///< of a wide node, as nodes of the binary tree
+
+    /// A wide node that is to be written.
+    struct Part {
+        std::uint32_t node;  ///< of the binary tree
+        std::size_t line;    ///< where it is to be
+    };
+
     void descend(std::uint32_t node, int depth);
     void ascend(std::uint32_t leaf);
     void weigh(std::uint32_t node);
     void weighAsLeaf(std::uint32_t node, float area);
-    std::size_t measure(std::uint32_t node, int depth);
-    void write(std::uint32_t node, Line* lines, std::size_t first, int depth) const;
 
-    struct Children {
-        std::array<std::uint32_t, WIDTH> nodes;
-        std::size_t count = 0;
-    };
     Children childrenOf(std::uint32_t node) const;
     void split(std::uint32_t node, std::size_t most, Children& children) const;
     /// How many of `most` children are best given to the first child of a binary node.
     std::size_t shareOfFirst(const BinaryNode& node, std::size_t most) const;
+
+    void measure();
+    void measureBelow(std::uint32_t node);
+    void measure(std::uint32_t node, const Children& children);
+    /// @return those of its children that are wide nodes
+    Some<Part> write(const Part& part, Line* lines) const;
+    void writeBelow(const Part& part, Line* lines) const;
 
     std::span<const Triangle> triangles_;
     const BinaryTree& tree_;
