@@ -3,10 +3,12 @@
 
 #include "kernel/WatertightRay.h"
 #include "kernel/wide-bvh/LeafTest.h"
-#include "kernel/wide-bvh/NodeTest.h"
+#include "kernel/wide-bvh/OpenChildren.h"
+#include "kernel/wide-bvh/OpenNodes.h"
 
 #include <bit>
 #include <limits>
+#include <type_traits>
 
 namespace bwfirt::wide {
 
@@ -21,11 +23,12 @@ class NearestQuery {
 
     /// False where the ray is at its end.
     bool step() {
-        if (Child::isLeaf(next_))
-            visitLeaf();
-        else
-            visitNode();
-        return chooseNext();
+        if (!Child::isLeaf(next_)) {
+            const Node& node = tree_.node(next_);
+            return open_.enter(tree_, node, meet(node, constants_, tMax_), tMax_, next_);
+        }
+        visitLeaf();
+        return open_.take(tree_, tMax_, next_);
     }
 
     /// Has the memory fetched that the next step reads.
@@ -36,15 +39,6 @@ class NearestQuery {
     }
 
   private:
-    void visitNode() {
-        keysStack_[size_].keys = keys_;
-        nodeStack_[size_] = node_;
-        size_ += isAnyKeyLeft(keys_) ? 1 : 0;
-        node_ = &tree_.node(next_);
-        const NodeMeeting meeting = meet(*node_, constants_, tMax_);
-        keys_ = keysOf(meeting.t, meeting.children);
-    }
-
     void visitLeaf() {
         const Leaf leaf = tree_.leaf(next_);
         Mask possible = meet(leaf, constants_, tMax_).possible;
@@ -63,26 +57,6 @@ class NearestQuery {
         isHit_ = true;
     }
 
-    /// Takes the nearest child of the last node that has any left. A key is less than the distance
-    /// that it stands for by its lowest bits. While a leaf is tested, the child after it is
-    /// fetched.
-    bool chooseNext() {
-        std::int32_t key = least(keys_);
-        while (key > std::bit_cast<std::int32_t>(tMax_)) {
-            if (size_ == 0)
-                return false;
-            keys_ = keysStack_[--size_].keys;
-            node_ = nodeStack_[size_];
-            key = least(keys_);
-        }
-        const int lane = laneOf(key);
-        keys_ = without(keys_, lane);
-        next_ = node_->children[static_cast<std::size_t>(lane)];
-        if (Child::isLeaf(next_) && isAnyKeyLeft(keys_))
-            tree_.prefetch(node_->children[static_cast<std::size_t>(laneOf(least(keys_)))]);
-        return true;
-    }
-
     const WideTree& tree_;
     Ray ray_;
     RayConstants constants_;
@@ -91,17 +65,7 @@ class NearestQuery {
     double tNearest_ = std::numeric_limits<float>::max();
     std::uint32_t nearest_ = 0;
     bool isHit_ = false;
-
-    /// Children of a node that the ray meets and has not been to: of the last node, and of those
-    /// above it.
-    Ints keys_ = noKeys();
-    const Node* node_ = nullptr;
-    std::size_t size_ = 0;
-    struct Keys {
-        Ints keys;
-    };
-    std::array<Keys, WideTree::MOST_DEPTH + 1> keysStack_;
-    std::array<const Node*, WideTree::MOST_DEPTH + 1> nodeStack_;
+    std::conditional_t<HAS_WIDE_REGISTERS, OpenNodes, OpenChildren> open_;
 };
 
 }  // namespace bwfirt::wide

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include <cstdint>
-
 // What the kernel asks of the processor: `Floats` and `Ints` are WIDTH numbers side by side, a
 // `Mask` has a bit for each. One of three headers is compiled, as the build's `arch` has it; all of
 // them define the same:
 //
 //   all(x), load(numbers)       the same number in all lanes; WIDTH numbers from memory
+//   store(numbers, a)           to memory
 //   loadBytes(bytes)            WIDTH bytes as Ints; may read 16
 //   permute(a, lanes)           of each of the lanes that are named, the number in it
 //   + - * and unary -           of Floats, rounded each
@@ -20,26 +19,17 @@
 //   isLess, isLessOrEqual       a Mask; false where one of them is NaN
 //   isNotLess(a, b)             the contrary of isLess
 //
-//   keysOf(numbers, mask)       keys to sort numbers not below 0 by: their bits, and the lane in
-//   the
-//                               lowest four; NO_KEY where the mask has no bit
+//   keysOf(numbers, mask)       keys to sort numbers not below 0 by: their upper bits; where the
+//                               mask has no bit, a key that is greater than all of these
 //   noKeys(), least(keys), without(keys, lane), isAnyKeyLeft(keys)
+//   laneOf(key)                 of the least key
+//   isBeyond(key, x)            whether the number of the least key is greater than x; false where
+//                               their upper bits are the same
 //
 //   topBits(numbers)            the top bits of WIDTH whole numbers in memory
 //   storeChosen(target, mask, numbers)
 //                               stores those that the mask chooses, one behind the other; writes
 //                               WIDTH numbers at most, whatever stands behind those that are chosen
-
-namespace bwfirt::wide {
-
-constexpr std::int32_t LANE_BITS = 15;
-constexpr std::int32_t NO_KEY = 0x7fffffff;
-
-inline int laneOf(std::int32_t key) {
-    return key & LANE_BITS;
-}
-
-}  // namespace bwfirt::wide
 
 #if defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 #include "kernel/wide-bvh/SimdAvx512.h"  // IWYU pragma: export
@@ -48,3 +38,10 @@ inline int laneOf(std::int32_t key) {
 #else
 #include "kernel/wide-bvh/SimdPlain.h"  // IWYU pragma: export
 #endif
+
+namespace bwfirt::wide {
+
+/// Whether nodes are so wide that branches cost more than the work that they save.
+constexpr bool HAS_WIDE_REGISTERS = WIDTH > 8;
+
+}  // namespace bwfirt::wide

@@ -3,8 +3,9 @@
 
 #include <immintrin.h>
 
-#include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 namespace bwfirt::wide {
@@ -21,6 +22,9 @@ inline Floats all(float x) {
 }
 inline Floats load(const float* numbers) {
     return _mm256_loadu_ps(numbers);
+}
+inline void store(float* numbers, Floats a) {
+    _mm256_storeu_ps(numbers, a);
 }
 inline Ints loadBytes(const std::uint8_t* bytes) {
     return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(bytes)));
@@ -67,39 +71,54 @@ inline Mask isNotLess(Floats a, Floats b) {
     return maskOf(_mm256_cmp_ps(a, b, _CMP_NLT_UQ));
 }
 
-inline Ints lanes() {
-    return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+/// Sixteen bits each: one instruction finds the least and its lane, which becomes bits 16 to 18.
+using Keys = __m128i;
+
+inline Keys noKeys() {
+    return _mm_set1_epi32(-1);
 }
-inline Ints noKeys() {
-    return _mm256_set1_epi32(NO_KEY);
+inline Keys keysOf(Floats numbers, Mask mask) {
+    const Ints bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    const Ints others = _mm256_cmpeq_epi32(
+        _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(mask)), bits), _mm256_setzero_si256());
+    const Ints halves =
+        _mm256_srli_epi32(_mm256_or_si256(_mm256_castps_si256(numbers), others), 16);
+    return _mm_packus_epi32(_mm256_castsi256_si128(halves), _mm256_extracti128_si256(halves, 1));
 }
-inline Ints keysOf(Floats numbers, Mask mask) {
-    const Ints cleared =
-        _mm256_andnot_si256(_mm256_set1_epi32(LANE_BITS), _mm256_castps_si256(numbers));
-    const Ints bits = _mm256_sllv_epi32(_mm256_set1_epi32(1), lanes());
-    const Ints chosen =
-        _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(static_cast<int>(mask)), bits), bits);
-    return _mm256_blendv_epi8(noKeys(), _mm256_or_si256(cleared, lanes()), chosen);
+inline std::int32_t least(Keys keys) {
+    return _mm_cvtsi128_si32(_mm_minpos_epu16(keys));
 }
-inline std::int32_t least(Ints keys) {
-    __m128i half = _mm_min_epi32(_mm256_castsi256_si128(keys), _mm256_extracti128_si256(keys, 1));
-    half = _mm_min_epi32(half, _mm_shuffle_epi32(half, 0b01001110));
-    half = _mm_min_epi32(half, _mm_shuffle_epi32(half, 0b10110001));
-    return _mm_cvtsi128_si32(half);
+inline std::size_t laneOf(std::int32_t key) {
+    return static_cast<std::size_t>(key >> 16);
 }
-inline Ints without(Ints keys, int lane) {
-    return _mm256_blendv_epi8(keys, noKeys(), _mm256_cmpeq_epi32(lanes(), _mm256_set1_epi32(lane)));
+inline bool isBeyond(std::int32_t key, float x) {
+    return (key & 0xffff) > std::bit_cast<std::int32_t>(x) >> 16;
 }
-inline bool isAnyKeyLeft(Ints keys) {
-    return _mm256_movemask_epi8(_mm256_cmpeq_epi32(keys, noKeys())) != -1;
+inline Keys without(Keys keys, std::size_t lane) {
+    static constexpr std::array<std::uint16_t, 15> ONE = {0, 0, 0, 0, 0, 0, 0, 0xffff};
+    return _mm_or_si128(keys,
+                        _mm_loadu_si128(reinterpret_cast<const __m128i*>(&ONE[WIDTH - 1 - lane])));
+}
+inline bool isAnyKeyLeft(Keys keys) {
+    return _mm_test_all_ones(keys) == 0;
 }
 
 inline Mask topBits(const std::uint32_t* numbers) {
     return maskOf(load(reinterpret_cast<const float*>(numbers)));
 }
 inline void storeChosen(std::uint32_t* target, Mask mask, const std::uint32_t* numbers) {
-    for (; mask != 0; mask &= mask - 1)
-        *target++ = numbers[std::countr_zero(mask)];
+    static constexpr auto LANES = [] {
+        std::array<std::array<std::uint8_t, WIDTH>, 1 << WIDTH> lanes{};
+        for (Mask chosen = 0; chosen < lanes.size(); ++chosen) {
+            std::size_t count = 0;
+            for (Mask left = chosen; left != 0; left &= left - 1)
+                lanes[chosen][count++] = static_cast<std::uint8_t>(std::countr_zero(left));
+        }
+        return lanes;
+    }();
+    const Ints all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(target),
+                        _mm256_permutevar8x32_epi32(all, loadBytes(LANES[mask].data())));
 }
 
 }  // namespace bwfirt::wide

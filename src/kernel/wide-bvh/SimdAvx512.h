@@ -3,6 +3,8 @@
 
 #include <immintrin.h>
 
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 
 namespace bwfirt::wide {
@@ -19,6 +21,9 @@ inline Floats all(float x) {
 }
 inline Floats load(const float* numbers) {
     return _mm512_loadu_ps(numbers);
+}
+inline void store(float* numbers, Floats a) {
+    _mm512_storeu_ps(numbers, a);
 }
 inline Ints loadBytes(const std::uint8_t* bytes) {
     return _mm512_cvtepu8_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes)));
@@ -62,23 +67,34 @@ inline Mask isNotLess(Floats a, Floats b) {
     return _mm512_cmp_ps_mask(a, b, _CMP_NLT_UQ);
 }
 
-inline Ints noKeys() {
+/// A key has its lane in the lowest bits.
+constexpr std::int32_t LANE_BITS = 15;
+constexpr std::int32_t NO_KEY = 0x7fffffff;
+using Keys = Ints;
+
+inline Keys noKeys() {
     return _mm512_set1_epi32(NO_KEY);
 }
-inline Ints keysOf(Floats numbers, Mask mask) {
+inline Keys keysOf(Floats numbers, Mask mask) {
     const Ints lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     const Ints cleared =
         _mm512_andnot_si512(_mm512_set1_epi32(LANE_BITS), _mm512_castps_si512(numbers));
     return _mm512_mask_or_epi32(noKeys(), static_cast<__mmask16>(mask), cleared, lanes);
 }
-inline std::int32_t least(Ints keys) {
+inline std::int32_t least(Keys keys) {
     return _mm512_reduce_min_epi32(keys);
 }
-inline Ints without(Ints keys, int lane) {
+inline Keys without(Keys keys, std::size_t lane) {
     return _mm512_mask_mov_epi32(keys, static_cast<__mmask16>(1U << lane), noKeys());
 }
-inline bool isAnyKeyLeft(Ints keys) {
+inline bool isAnyKeyLeft(Keys keys) {
     return _mm512_cmpneq_epi32_mask(keys, noKeys()) != 0;
+}
+inline std::size_t laneOf(std::int32_t key) {
+    return static_cast<std::size_t>(key & LANE_BITS);
+}
+inline bool isBeyond(std::int32_t key, float x) {
+    return key > std::bit_cast<std::int32_t>(x);
 }
 
 inline Mask topBits(const std::uint32_t* numbers) {

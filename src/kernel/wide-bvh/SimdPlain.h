@@ -43,6 +43,9 @@ inline Floats all(float x) {
 inline Floats load(const float* numbers) {
     return perLane([&](std::size_t i) { return numbers[i]; });
 }
+inline void store(float* numbers, const Floats& a) {
+    std::copy(a.lanes.begin(), a.lanes.end(), numbers);
+}
 inline Ints loadBytes(const std::uint8_t* bytes) {
     return perLane([&](std::size_t i) { return std::int32_t{bytes[i]}; });
 }
@@ -102,24 +105,35 @@ inline Mask isNotLess(const Floats& a, const Floats& b) {
     return maskOf([&](std::size_t i) { return !(a.lanes[i] < b.lanes[i]); });
 }
 
-inline Ints noKeys() {
+/// A key has its lane in the lowest bits.
+constexpr std::int32_t LANE_BITS = 15;
+constexpr std::int32_t NO_KEY = 0x7fffffff;
+using Keys = Ints;
+
+inline Keys noKeys() {
     return perLane([](std::size_t) { return NO_KEY; });
 }
-inline Ints keysOf(const Floats& numbers, Mask mask) {
+inline Keys keysOf(const Floats& numbers, Mask mask) {
     return perLane([&](std::size_t i) {
         const auto bits = std::bit_cast<std::int32_t>(numbers.lanes[i]) & ~LANE_BITS;
         return (mask >> i & 1) != 0 ? bits | static_cast<std::int32_t>(i) : NO_KEY;
     });
 }
-inline std::int32_t least(const Ints& keys) {
+inline std::int32_t least(const Keys& keys) {
     return *std::min_element(keys.lanes.begin(), keys.lanes.end());
 }
-inline Ints without(Ints keys, int lane) {
-    keys.lanes[static_cast<std::size_t>(lane)] = NO_KEY;
+inline Keys without(Keys keys, std::size_t lane) {
+    keys.lanes[lane] = NO_KEY;
     return keys;
 }
-inline bool isAnyKeyLeft(const Ints& keys) {
+inline bool isAnyKeyLeft(const Keys& keys) {
     return least(keys) != NO_KEY;
+}
+inline std::size_t laneOf(std::int32_t key) {
+    return static_cast<std::size_t>(key & LANE_BITS);
+}
+inline bool isBeyond(std::int32_t key, float x) {
+    return key > std::bit_cast<std::int32_t>(x);
 }
 
 inline Mask topBits(const std::uint32_t* numbers) {

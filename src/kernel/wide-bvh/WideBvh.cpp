@@ -45,15 +45,25 @@ class WideBvh : public RTKernel {
 
     void kernelIntersectMany(std::span<const Ray> rays,
                              std::span<std::optional<Hit>> hits) const override {
-        askInTurns<NearestQuery>(rays, hits);
+        if constexpr (IN_TURNS)
+            askInTurns<NearestQuery>(rays, hits);
+        else
+            RTKernel::kernelIntersectMany(rays, hits);
     }
 
     void kernelVisibleMany(std::span<const Segment> segments,
                            std::span<bool> visible) const override {
-        askInTurns<VisibilityQuery>(segments, visible);
+        if constexpr (IN_TURNS)
+            askInTurns<VisibilityQuery>(segments, visible);
+        else
+            RTKernel::kernelVisibleMany(segments, visible);
     }
 
   private:
+    /// With narrow registers each step has branches of its own to be mispredicted, and a processor
+    /// that has to guess for many rays at once guesses worse than it hides the latency of memory.
+    static constexpr bool IN_TURNS = HAS_WIDE_REGISTERS;
+
     /// Queries that take turns: enough of them to wait for memory together.
     static constexpr std::size_t TURNS = 16;
 
