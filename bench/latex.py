@@ -15,8 +15,8 @@ import jinja2
 from tables import Table
 
 TEMPLATES = Path(__file__).resolve().parent / 'templates'
-PROGRAMS = [('pdflatex', 'texlive-latex-recommended and lmodern'),
-            ('epstopdf', 'texlive-font-utils')]  # and the Debian packages that they are in
+PROGRAMS = [('pdflatex', 'texlive-latex-recommended and lmodern'),  # and their Debian packages
+            ('epstopdf', 'texlive-font-utils'), ('gs', 'ghostscript')]
 LINE, CHARACTER, GAP = 495, 3.8, 8  # widths in a table: of all, of a character, of a gap, in points
 
 SPECIAL = {'\\': r'\textbackslash{}', '~': r'\textasciitilde{}', '^': r'\textasciicircum{}',

@@ -193,11 +193,12 @@ def test_a_missing_module_is_named_with_its_package(bench: Bench, tmp_path: Path
 
 
 @pytest.mark.parametrize('program, package', [
-    ('pdflatex', 'texlive-latex-recommended and lmodern'), ('epstopdf', 'texlive-font-utils')])
+    ('pdflatex', 'texlive-latex-recommended and lmodern'), ('epstopdf', 'texlive-font-utils'),
+    ('gs', 'ghostscript')])
 def test_missing_latex_is_named_with_its_package(
         call: Call, tmp_path: Path, program: str, package: str,
         monkeypatch: pytest.MonkeyPatch) -> None:
-    for other in {'pdflatex', 'epstopdf'} - {program}:
+    for other in {'pdflatex', 'epstopdf', 'gs'} - {program}:
         (tmp_path / other).symlink_to(shutil.which(other) or '/missing')
     monkeypatch.setenv('PATH', str(tmp_path))
     message = complaint(call(), 1)
