@@ -7,8 +7,9 @@
 # built, but for the template.
 SCENES = ['cornell', 'conference', 'atrium', 'statue', 'forest', 'hairball', 'stadium']
 MORE_SCENES = ['$BWFIRT_SCENES']  # in a full run
-KERNELS = ['simple-bvh', 'funky-kd', '*']
-QUICK_KERNELS = ['simple-bvh', 'funky-kd', 'wide-bvh']  # of these, those that are built
+PEERS = ['embree', 'embree:quality=medium', 'embree:robust=1']  # others are compared with the best
+KERNELS = ['simple-bvh', 'funky-kd', *PEERS, '*']  # of these, those that are built
+QUICK_KERNELS = ['simple-bvh', 'funky-kd', 'wide-bvh']  # likewise
 CONTROL = 'funky-kd'  # is measured against itself, to learn the noise
 THREAD_SCALING = ['conference']  # scenes that are rendered with fewer threads, too
 GROWTH = 'forest'  # a standard scene that is made of ever more triangles
@@ -93,6 +94,8 @@ def parse_arguments() -> argparse.Namespace:
     add('--repeats', metavar='N', type=whole_number, help='of each run, default 3')
     add('--threads', metavar='N', type=whole_number, help='default: all that may be used')
     add('--passes', metavar='N', type=whole_number, help='samples per pixel, default 16')
+    add('--replay-seconds', metavar='S', type=number,
+        help='least time of each measurement in a replay, default 1')
     add('--size', metavar='WxH', type=size, help='of the image, default 640x480')
     add('--time-limit', metavar='SECONDS', type=number, help='of one run, default 1800')
     add('--memory-limit', metavar='GB', type=number, help="of one run's address space, "
@@ -107,7 +110,7 @@ def parse_arguments() -> argparse.Namespace:
 
 def extent_of(arguments: argparse.Namespace) -> Extent:
     base = QUICK if arguments.quick else FULL
-    given = {key: value for key in ['repeats', 'passes', 'size', 'time_limit']
+    given = {key: value for key in ['repeats', 'passes', 'size', 'replay_seconds', 'time_limit']
              if (value := getattr(arguments, key))}
     return Extent(**{**vars(base), **given})
 
@@ -117,8 +120,8 @@ def plan_of(arguments: argparse.Namespace, results: Path) -> Plan:
     build = arguments.build.absolute()
     built = built_kernels(build)
     chosen = [name for part in arguments.kernels or [] for name in part]
-    quick = [name for name in QUICK_KERNELS if name in built]
-    standard_kernels = quick if arguments.quick else KERNELS
+    standard_kernels = [name for name in (QUICK_KERNELS if arguments.quick else KERNELS)
+                        if name.partition(':')[0] in [*built, '*']]
     kernels = find_kernels(standard_kernels if arguments.kernels is None else chosen, build)
     standard = SCENES if arguments.quick else SCENES + MORE_SCENES
     scenes = find_scenes(standard if arguments.scenes is None else arguments.scenes)
@@ -171,7 +174,7 @@ def main() -> int:
             remove(plan, results)
         measurement.measure()
         selected = plan.names()
-    measured = Measured(read_results(results), selected)
+    measured = Measured(read_results(results), selected, PEERS)
     for path in write_report(measured, arguments.output):
         print(path)
     return DONE if any(result.done for result in measured.results) else FAILED

@@ -189,7 +189,7 @@ def numerical_comparison(measured: Measured, scene: str) -> Figure | None:
     runs = [run for k in kernels if (run := measured.first(scene, k))]
     figure = Figure(figsize=(WIDTH, 0.85 + row_height(measured) * len(kernels)))
     axes = figure.subplots()
-    values = [SQUARED_ERROR.samples(run.report)[0] for run in runs]
+    values = [SQUARED_ERROR.value(run.report) for run in runs]
     variances = [sum(x * x for x in run.report['standard_error'] if x is not None) for run in runs]
     lowest = min([x for x in [*values, *variances] if x > 0], default=1e-12)
     highest = max([x for x in [*values, *variances] if x > 0], default=1)

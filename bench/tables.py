@@ -4,12 +4,14 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 
 from doubts import failures, percent
 from figures import ppm_wrong, short, si
-from metrics import (ANSWERS, BYTES_PER_TRIANGLE, FINAL, INITIALIZE, OVERALL, PEAK, RATE, RATE_H,
-                     RATE_IN_FLIGHT, RATE_MIXED, RATE_V, RENDERING, TOTAL, Measured, Metric, Report)
-from plan import CONTROL, RECORD, REPLAY
+from metrics import (ALONE, ANSWERS, BYTES_PER_TRIANGLE, FINAL, INITIALIZE, OVERALL, PEAK,
+                     PEAK_PER_TRIANGLE, RATE, RATE_H, RATE_IN_FLIGHT, RATE_MIXED, RATE_V, RENDERING,
+                     TOTAL, Measured, Metric, Report, Spread)
+from plan import CONTROL, RECORD
 
 
 @dataclass(frozen=True)
@@ -32,6 +34,9 @@ class Table:
     note: str = ''
 
 
+COMPARED = {RATE_MIXED: 'mixed', RATE_IN_FLIGHT: 'in flight'}  # with the best of the peers
+
+
 def number(x: float, text: str | None = None, **more: object) -> Cell:
     return Cell(text if text is not None else short(x), x, **more)  # type: ignore[arg-type]
 
@@ -52,7 +57,8 @@ def figure_cell(measured: Measured, metric: Metric, scene: str, kernel: str,
     """A median, with its wrong answers where there are any, or how the runs failed."""
     spread = measured.spread(metric, scene, kernel)
     if spread is None:
-        failed = [run for run in measured.runs(scene, kernel, metric.kind) if not run.done]
+        runs = measured.runs(scene, kernel, metric.kind, metric.threads)
+        failed = [run for run in runs if not run.done]
         return Cell('', error=failed[0].status) if failed else NOTHING
     text = short(spread.median)
     if with_range and not metric.is_exact:
@@ -102,6 +108,45 @@ def kernels(measured: Measured) -> Table:
                  'all. Wrong: answers in a million, on the worst scene.')
 
 
+def kernels_alone(threads: int) -> str:
+    return f"Kernels alone, {f'{threads} threads' if threads > 1 else 'one thread'}"
+
+
+def ratio_cell(spread: Spread | None) -> Cell:
+    """The median, lowest and highest of a kernel's ratio in the repeats of a scene."""
+    if spread is None:
+        return NOTHING
+    text = f'{spread.median:.2f} ({spread.lowest:.2f}\u2013{spread.highest:.2f})'
+    return number(spread.median, text)
+
+
+def by_peer(measured: Measured, threads: int) -> Table:
+    """Means over the scenes of what alone() shows of each."""
+    def cell(ratios: dict[str, Spread | None]) -> Cell:
+        known = {scene: spread.median for scene, spread in ratios.items() if spread}
+        if not known:
+            return NOTHING
+        least, greatest = (choose(known, key=known.__getitem__) for choose in (min, max))
+        mean = Spread(tuple(known.values())).geometric_mean
+        some = f' [{len(known)}]' if len(known) < len(ratios) else ''
+        return number(mean, f'{mean:.2f}{some} ({known[least]:.2f} {least}\u2013'
+                            f'{known[greatest]:.2f} {greatest})')
+
+    columns = {f'{name} / peer': partial(measured.by_peer, metric.alone(threads))
+               for metric, name in COMPARED.items()}
+    if threads > 1:
+        columns['mixed / one thread'] = partial(measured.scaling, RATE_MIXED)
+
+    def row(kernel: str) -> list[Cell]:
+        return [Cell(kernel)] + [cell({scene: ratio(scene, kernel) for scene in measured.scenes})
+                                 for ratio in columns.values()]
+    return Table(f'{kernels_alone(threads)}: geometric means over the scenes',
+                 ['kernel', *columns], [row(kernel) for kernel in measured.kernels],
+                 f"Peer: of {', '.join(measured.peers)} the fastest one on the scene that answers "
+                 'rightly. In parentheses: the scenes of the least and the greatest ratio. A number '
+                 'in brackets tells of how many scenes a mean is, where it is not of all.')
+
+
 def failure_table(measured: Measured) -> Table:
     return Table('Failures', ['scene', 'kernel', 'what', 'message'],
                  [[Cell(text) for text in row] for row in failures(measured)])
@@ -117,8 +162,34 @@ def times(measured: Measured, scene: str) -> Table:
                  rows)
 
 
+def alone(measured: Measured, scene: str, threads: int) -> Table:
+    metrics = {name: metric.alone(threads) for name, metric in zip(
+        ['build s', 'peak', 'final', 'h', 'V', 'mixed', 'in flight'], ALONE, strict=True)}
+    compared = {f'{name} / peer': metric.alone(threads) for metric, name in COMPARED.items()}
+
+    def row(kernel: str) -> list[Cell]:
+        wrong = measured.wrong_per_million(scene, kernel)
+        cells = [figure_cell(measured, metric, scene, kernel) for metric in metrics.values()]
+        cells.append(number(wrong, si(wrong)) if wrong is not None else NOTHING)
+        cells += [ratio_cell(measured.by_peer(metric, scene, kernel))
+                  for metric in compared.values()]
+        if threads > 1:
+            cells.append(ratio_cell(measured.scaling(RATE_MIXED, scene, kernel)))
+        return [Cell(kernel), *cells]
+    peers = ', '.join(f'{measured.leader(metric, scene, measured.peers) or "none"} ({name})'
+                      for metric, name in zip(compared.values(), COMPARED.values()))
+    return Table(kernels_alone(threads),
+                 ['kernel', *metrics, 'wrong', *compared,
+                  *['mixed / one thread'] * (threads > 1)],
+                 [row(kernel) for kernel in measured.kernels],
+                 'Medians of replays. Peak, final: bytes per triangle; h, V, mixed, in flight: '
+                 'million rays per second; wrong: answers in a million. Ratios are those within '
+                 f'each repeat, median (lowest\u2013highest); the peer is {peers}.')
+
+
 def memory(measured: Measured, scene: str) -> Table:
-    metrics = {PEAK: 'peak MB', FINAL: 'final MB', BYTES_PER_TRIANGLE: 'final bytes per triangle'}
+    metrics = {PEAK: 'peak MB', FINAL: 'final MB', PEAK_PER_TRIANGLE: 'peak bytes per triangle',
+               BYTES_PER_TRIANGLE: 'final bytes per triangle'}
 
     def row(kernel: str) -> list[Cell]:
         run = measured.first(scene, kernel)
@@ -151,9 +222,9 @@ def intensity(measured: Measured, scene: str) -> Table:
 
 def answers(measured: Measured, scene: str) -> Table:
     def row(kernel: str) -> list[Cell]:
-        replay = measured.first(scene, kernel, REPLAY)
+        replay = measured.worst_replay(scene, kernel)
         if replay is None:
-            failed = [run for run in measured.runs(scene, kernel, REPLAY) if not run.done]
+            failed = measured.replays(scene, kernel)
             status = failed[0].status if failed else 'not replayed'
             return [Cell(kernel), Cell('', error=status), *[NOTHING] * (len(ANSWERS) + 1)]
         report = replay.report['replay']
@@ -164,7 +235,7 @@ def answers(measured: Measured, scene: str) -> Table:
                          error='' if name == 'tie' or not count else '!') for name in ANSWERS),
                 number(distance, f'{distance:.2g}')]
     recorders = {run.report['replay']['recorded_by'] for kernel in measured.kernels
-                 if (run := measured.first(scene, kernel, REPLAY))}
+                 if (run := measured.worst_replay(scene, kernel))}
     others = ', '.join(sorted(recorders)) or 'the recorder'
     return Table(f'Answers that differ from those of {others}',
                  ['kernel', 'questions', *(name.replace('_', ' ') for name in ANSWERS),
@@ -268,7 +339,15 @@ def scenes(measured: Measured) -> Table:
                             'SHA-256 of the camera begins'], rows)
 
 
-SUMMARY: list[Callable[[Measured], Table]] = [speed, kernels]
-SCENE_TABLES: list[Callable[[Measured, str], Table]] = [times, memory, intensity, answers]
+def summary(measured: Measured) -> list[Table]:
+    return [speed(measured), kernels(measured),
+            *(by_peer(measured, threads) for threads in measured.replay_threads)]
+
+
+def of_scene(measured: Measured, scene: str) -> list[Table]:
+    return [*(alone(measured, scene, threads) for threads in measured.replay_threads),
+            *(table(measured, scene) for table in [times, memory, intensity, answers])]
+
+
 OVERALL_TABLES: list[Callable[[Measured], Table]] = [break_even, control]
 SYSTEM_TABLES: list[Callable[[Measured], Table]] = [system, compilers, scenes]
