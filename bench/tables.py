@@ -3,8 +3,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from functools import partial
+from dataclasses import dataclass, field, replace
 
 from doubts import failures, percent
 from figures import ppm_wrong, short, si
@@ -54,7 +53,7 @@ def wrong_answers(measured: Measured, scene: str, kernel: str) -> str:
 
 def figure_cell(measured: Measured, metric: Metric, scene: str, kernel: str,
                 with_range: bool = False) -> Cell:
-    """A median, with its wrong answers where there are any, or how the runs failed."""
+    """A median, or how the runs failed. Wrong answers have to be shown beside it."""
     spread = measured.spread(metric, scene, kernel)
     if spread is None:
         runs = measured.runs(scene, kernel, metric.kind, metric.threads)
@@ -63,8 +62,12 @@ def figure_cell(measured: Measured, metric: Metric, scene: str, kernel: str,
     text = short(spread.median)
     if with_range and not metric.is_exact:
         text += f' ({short(spread.lowest)}\u2013{short(spread.highest)})'
-    return number(spread.median, text, is_best=kernel in measured.best(metric, scene),
-                  error=wrong_answers(measured, scene, kernel))
+    return number(spread.median, text, is_best=kernel in measured.best(metric, scene))
+
+
+def kernel_cell(measured: Measured, scene: str, kernel: str) -> Cell:
+    """Its name, with its wrong answers where there are any."""
+    return Cell(kernel, error=wrong_answers(measured, scene, kernel))
 
 
 def speed(measured: Measured) -> Table:
@@ -73,8 +76,12 @@ def speed(measured: Measured) -> Table:
             'they differ by less than the noise' +
             (f', which is {percent(noise)} here' if noise is not None else '') +
             '. Kernels whose answers are wrong are not ranked.')
-    rows = [[Cell(scene), *(figure_cell(measured, RATE, scene, kernel)
-                            for kernel in measured.kernels)] for scene in measured.scenes]
+
+    def cell(scene: str, kernel: str) -> Cell:
+        figure = figure_cell(measured, RATE, scene, kernel)
+        return replace(figure, error=figure.error or wrong_answers(measured, scene, kernel))
+    rows = [[Cell(scene), *(cell(scene, kernel) for kernel in measured.kernels)]
+            for scene in measured.scenes]
     return Table('Million rays per second, gross: medians', ['scene', *measured.kernels], rows,
                  note)
 
@@ -112,39 +119,25 @@ def kernels_alone(threads: int) -> str:
     return f"Kernels alone, {f'{threads} threads' if threads > 1 else 'one thread'}"
 
 
-def ratio_cell(spread: Spread | None) -> Cell:
-    """The median, lowest and highest of a kernel's ratio in the repeats of a scene."""
-    if spread is None:
-        return NOTHING
-    text = f'{spread.median:.2f} ({spread.lowest:.2f}\u2013{spread.highest:.2f})'
-    return number(spread.median, text)
-
-
 def by_peer(measured: Measured, threads: int) -> Table:
-    """Means over the scenes of what alone() shows of each."""
-    def cell(ratios: dict[str, Spread | None]) -> Cell:
-        known = {scene: spread.median for scene, spread in ratios.items() if spread}
-        if not known:
+    def cell(metric: Metric, kernel: str) -> Cell:
+        ratios = {scene: spread.median for scene in measured.scenes
+                  if (spread := measured.by_peer(metric.alone(threads), scene, kernel))}
+        if not ratios:
             return NOTHING
-        least, greatest = (choose(known, key=known.__getitem__) for choose in (min, max))
-        mean = Spread(tuple(known.values())).geometric_mean
-        some = f' [{len(known)}]' if len(known) < len(ratios) else ''
-        return number(mean, f'{mean:.2f}{some} ({known[least]:.2f} {least}\u2013'
-                            f'{known[greatest]:.2f} {greatest})')
-
-    columns = {f'{name} / peer': partial(measured.by_peer, metric.alone(threads))
-               for metric, name in COMPARED.items()}
-    if threads > 1:
-        columns['mixed / one thread'] = partial(measured.scaling, RATE_MIXED)
-
-    def row(kernel: str) -> list[Cell]:
-        return [Cell(kernel)] + [cell({scene: ratio(scene, kernel) for scene in measured.scenes})
-                                 for ratio in columns.values()]
-    return Table(f'{kernels_alone(threads)}: geometric means over the scenes',
-                 ['kernel', *columns], [row(kernel) for kernel in measured.kernels],
-                 f"Peer: of {', '.join(measured.peers)} the fastest one on the scene that answers "
-                 'rightly. In parentheses: the scenes of the least and the greatest ratio. A number '
-                 'in brackets tells of how many scenes a mean is, where it is not of all.')
+        least, greatest = (choose(ratios, key=ratios.__getitem__) for choose in (min, max))
+        mean = Spread(tuple(ratios.values())).geometric_mean
+        some = f' [{len(ratios)}]' if len(ratios) < len(measured.scenes) else ''
+        return number(mean, f'{mean:.2f}{some} ({ratios[least]:.2f} {least}\u2013'
+                            f'{ratios[greatest]:.2f} {greatest})')
+    return Table(f'{kernels_alone(threads)}: geometric means over the scenes, by the peer',
+                 ['kernel', *COMPARED.values()],
+                 [[Cell(kernel), *(cell(metric, kernel) for metric in COMPARED)]
+                  for kernel in measured.kernels],
+                 f"Peer: of {', '.join(measured.peers)} the fastest on the scene, of those that "
+                 'answer rightly there. In parentheses: the scenes of the least and the greatest '
+                 'ratio. A number in brackets tells of how many scenes a mean is, where it is not '
+                 'of all.')
 
 
 def failure_table(measured: Measured) -> Table:
@@ -154,37 +147,36 @@ def failure_table(measured: Measured) -> Table:
 
 def times(measured: Measured, scene: str) -> Table:
     metrics = {INITIALIZE: 'initialise s', RENDERING: 'render s', TOTAL: 'total s',
-               RATE: 'Mrays/s, gross', RATE_MIXED: 'Mrays/s, replayed',
-               RATE_IN_FLIGHT: 'in flight'}
-    rows = [[Cell(kernel), *(figure_cell(measured, metric, scene, kernel, with_range=True)
-                             for metric in metrics)] for kernel in measured.kernels]
+               RATE: 'Mrays/s, gross'}
+    rows = [[kernel_cell(measured, scene, kernel),
+             *(figure_cell(measured, metric, scene, kernel, with_range=True)
+               for metric in metrics)] for kernel in measured.kernels]
     return Table('Times and rates: medians (lowest\u2013highest)', ['kernel', *metrics.values()],
                  rows)
 
 
 def alone(measured: Measured, scene: str, threads: int) -> Table:
-    metrics = {name: metric.alone(threads) for name, metric in zip(
-        ['build s', 'peak', 'final', 'h', 'V', 'mixed', 'in flight'], ALONE, strict=True)}
-    compared = {f'{name} / peer': metric.alone(threads) for metric, name in COMPARED.items()}
+    names = ['build s', 'peak B/tri.', 'final B/tri.', 'h', 'V', 'mixed', 'in flight']
+    compared = {name: metric.alone(threads) for metric, name in COMPARED.items()}
+
+    def ratio(metric: Metric, kernel: str) -> Cell:
+        spread = measured.by_peer(metric, scene, kernel)
+        return NOTHING if spread is None else number(
+            spread.median, f'{spread.median:.2f} ({spread.lowest:.2f}\u2013{spread.highest:.2f})')
 
     def row(kernel: str) -> list[Cell]:
-        wrong = measured.wrong_per_million(scene, kernel)
-        cells = [figure_cell(measured, metric, scene, kernel) for metric in metrics.values()]
-        cells.append(number(wrong, si(wrong)) if wrong is not None else NOTHING)
-        cells += [ratio_cell(measured.by_peer(metric, scene, kernel))
-                  for metric in compared.values()]
-        if threads > 1:
-            cells.append(ratio_cell(measured.scaling(RATE_MIXED, scene, kernel)))
-        return [Cell(kernel), *cells]
+        return [kernel_cell(measured, scene, kernel),
+                *(figure_cell(measured, metric.alone(threads), scene, kernel, with_range=True)
+                  for metric in ALONE),
+                *(ratio(metric, kernel) for metric in compared.values())]
     peers = ', '.join(f'{measured.leader(metric, scene, measured.peers) or "none"} ({name})'
-                      for metric, name in zip(compared.values(), COMPARED.values()))
-    return Table(kernels_alone(threads),
-                 ['kernel', *metrics, 'wrong', *compared,
-                  *['mixed / one thread'] * (threads > 1)],
+                      for name, metric in compared.items())
+    return Table(f'{kernels_alone(threads)}: medians (lowest\u2013highest)',
+                 ['kernel', *names, *(f'{name} / peer' for name in compared)],
                  [row(kernel) for kernel in measured.kernels],
-                 'Medians of replays. Peak, final: bytes per triangle; h, V, mixed, in flight: '
-                 'million rays per second; wrong: answers in a million. Ratios are those within '
-                 f'each repeat, median (lowest\u2013highest); the peer is {peers}.')
+                 'h, V, mixed, in flight: million rays per second, replayed. B/tri.: bytes per '
+                 'triangle. Ratios are those within a repeat, in which the kernels took turns; the '
+                 f'peer is {peers}.')
 
 
 def memory(measured: Measured, scene: str) -> Table:
@@ -195,7 +187,8 @@ def memory(measured: Measured, scene: str) -> Table:
         run = measured.first(scene, kernel)
         cells = [figure_cell(measured, metric, scene, kernel) for metric in metrics]
         process = run.report['memory']['process_peak_bytes'] / 1e6 if run else None
-        return [Cell(kernel), *cells, number(process) if process is not None else NOTHING]
+        return [kernel_cell(measured, scene, kernel), *cells,
+                number(process) if process is not None else NOTHING]
     return Table('Memory of the kernel, and of the whole process',
                  ['kernel', *metrics.values(), 'process peak MB'],
                  [row(kernel) for kernel in measured.kernels])
@@ -279,6 +272,16 @@ def break_even(measured: Measured) -> Table:
                   for scene in measured.scenes])
 
 
+def scaling(measured: Measured) -> Table:
+    def cell(scene: str, kernel: str) -> Cell:
+        spread = measured.scaling(RATE_MIXED, scene, kernel)
+        return NOTHING if spread is None else number(spread.median, f'{spread.median:.2f}')
+    rows = [[Cell(scene), *(cell(scene, kernel) for kernel in measured.kernels)]
+            for scene in measured.scenes if len(measured.replay_threads) > 1]
+    return Table(f'Kernels alone, scaling: mixed on {measured.threads} threads by one',
+                 ['scene', *measured.kernels], rows, 'Medians of the ratios within each repeat.')
+
+
 def size(count: float) -> str:
     return f'{count / 2**30:.1f} GiB'
 
@@ -349,5 +352,5 @@ def of_scene(measured: Measured, scene: str) -> list[Table]:
             *(table(measured, scene) for table in [times, memory, intensity, answers])]
 
 
-OVERALL_TABLES: list[Callable[[Measured], Table]] = [break_even, control]
+OVERALL_TABLES: list[Callable[[Measured], Table]] = [scaling, break_even, control]
 SYSTEM_TABLES: list[Callable[[Measured], Table]] = [system, compilers, scenes]

@@ -107,7 +107,7 @@ def test_the_peers_are_measured() -> None:
 
 
 def test_replays_may_be_shorter(call: Call) -> None:
-    for arguments, seconds in [([], '1'), (['--quick'], '0.05'), (['--replay-seconds', '0.2'], '0.2'),
+    for arguments, seconds in [([], '1'), (['--quick'], '0.02'), (['--replay-seconds', '0.2'], '0.2'),
                                (['--quick', '--replay-seconds', '3'], '3.0')]:
         commands = call('--dry-run', *arguments).stdout.splitlines()
         given = {line.split('--replay-seconds ')[1] for line in commands if '--replay ' in line}

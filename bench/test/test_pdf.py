@@ -11,10 +11,13 @@ from unittest import mock
 
 import pytest
 
+import figures
 from fakes import clean_environment, text_of
+from latex import fitting
 from plan import CONTROL, REPLAY
 from report import write_report
 from stored import Stored
+from tables import Cell, Table
 
 ODD_SCENE = '50%_a&b #1 {x} $y ~z^ <t>|u "q" \\s é ß'
 ODD_KERNEL = 'k:a=%_&#,b=${}~^<>|"\\ ü'
@@ -92,6 +95,26 @@ def environment(**variables: str) -> Iterator[None]:
     """Restored afterwards: write_report() sets the date for LaTeX."""
     with mock.patch.dict(os.environ, clean_environment(**variables), clear=True):
         yield
+
+
+@pytest.mark.parametrize('columns, parts', [(1, [1]), (4, [4]), (5, [3, 2]), (8, [4, 4]),
+                                            (9, [3, 3, 3])])
+def test_wide_tables_are_split_into_parts_of_about_the_same_width(columns: int,
+                                                                  parts: list[int]) -> None:
+    """Besides the first column of 10 characters there is room for four columns of 25."""
+    names = [f'{letter:25}' for letter in 'abcdefghi'[:columns]]
+    whole = Table('wide', ['0123456789', *names], [[Cell(name) for name in ['kernel', *names]]])
+    tables = fitting(whole)
+    assert [table.columns[0] for table in tables] == len(parts) * ['0123456789']
+    assert [len(table.columns) - 1 for table in tables] == parts
+    assert [name for table in tables for name in table.columns[1:]] == names
+    assert [cell.text for table in tables for cell in table.rows[0][1:]] == names
+
+
+def test_every_standard_kernel_has_a_style_of_its_own() -> None:
+    counts = {len(styles) for styles in [figures.COLOURS, figures.HATCHES, figures.MARKERS,
+                                         figures.LINES]}
+    assert counts == {len(set(figures.COLOURS))} and min(counts) >= 10
 
 
 Reports = Callable[[Callable[[Stored], None]], Report]
