@@ -29,14 +29,13 @@ matplotlib.rcParams.update({
 })
 WIDTH = 3.35  # inches, half the width of the text
 
-# Okabe and Ito's colours, which colour-blind people tell apart, but for a darker yellow, and some of
-# Tol's; in an order in which neighbours differ in grey, too. Markers, lines and hatches tell apart
-# the rest.
-# Hatches are of lines alone: dots and circles would make most of the bytes of an SVG figure.
+# Okabe and Ito's colours, which colour-blind people tell apart, but for a darker yellow, and four
+# more; in an order in which neighbours differ in grey, too. Markers, lines and hatches tell apart
+# the rest. Hatches are of lines alone: dots and circles would make most of the bytes of an SVG.
 COLOURS = ['#0072B2', '#E69F00', '#009E73', '#DDCC33', '#D55E00', '#56B4E9', '#CC79A7', '#777777',
            '#332288', '#999933', '#882255', '#BBBBBB']
-HATCHES = ['', '////', '||||', 'xxxx', '\\\\\\\\', '++++', '//', '----',
-           '||', 'xx', '\\\\', '++']
+HATCHES = ['', '////', '||||', 'xxxx', '\\\\\\\\', '++++', '//', '----', '||', 'xx',
+           '\\\\', '++']
 MARKERS = 'osD^vP*X<>pd'
 LINES = ['-', '--', '-.', ':', (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), (0, (7, 3)),
          (0, (9, 2, 2, 2)), (0, (2, 4)), (0, (5, 1, 1, 1, 1, 1)), (0, (9, 1))]

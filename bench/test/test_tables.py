@@ -136,7 +136,7 @@ def test_average_intensity_beside_its_reference(tmp_path: Path) -> None:
 
 @pytest.fixture(scope='module')
 def alone(tmp_path_factory: pytest.TempPathFactory) -> Measured:
-    """On a machine that drifts by a tenth from repeat to repeat; on hall, the liar is the only peer.
+    """On a machine that drifts by a tenth from repeat to repeat; the peer answers wrongly on hall.
 
     Rates on one thread are a quarter of those on four.
     """
