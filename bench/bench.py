@@ -39,7 +39,7 @@ except ModuleNotFoundError as missing:
 
 FULL = Extent(size='640x480', passes=16, repeats=3, controls=None, replay_rays=1000000,
               replay_seconds=1, growth=(1000, 10000, 100000, 1000000, 10000000), time_limit=1800)
-QUICK = Extent(size='200x150', passes=2, repeats=2, controls=3, replay_rays=20000,
+QUICK = Extent(size='200x150', passes=2, repeats=2, controls=3, replay_rays=5000,
                replay_seconds=0.02, growth=(1000, 10000, 100000), time_limit=120)
 BENCH = ROOT / 'bench'
 MOST_BYTES = 2**62  # that a limit can be

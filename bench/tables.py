@@ -134,10 +134,10 @@ def by_peer(measured: Measured, threads: int) -> Table:
                  ['kernel', *COMPARED.values()],
                  [[Cell(kernel), *(cell(metric, kernel) for metric in COMPARED)]
                   for kernel in measured.kernels],
-                 f"Peer: of {', '.join(measured.peers)} the fastest on the scene, of those that "
-                 'answer rightly there. In parentheses: the scenes of the least and the greatest '
-                 'ratio. A number in brackets tells of how many scenes a mean is, where it is not '
-                 'of all.')
+                 'In parentheses: the scenes of the least and the greatest ratio. A number in '
+                 'brackets tells of how many scenes a mean is, where it is not of all. Peer: the '
+                 'fastest on the scene that answers rightly there, of these: '
+                 f"{', '.join(measured.peers)}.")
 
 
 def failure_table(measured: Measured) -> Table:
