@@ -105,7 +105,8 @@ class Spread:
 
     @property
     def geometric_mean(self) -> float:
-        return statistics.geometric_mean(self.samples)
+        """Within the range, in spite of rounding."""
+        return min(max(statistics.geometric_mean(self.samples), self.lowest), self.highest)
 
     @property
     def relative_range(self) -> float:

@@ -165,6 +165,12 @@ def test_all_wrong_there_is_no_best(tmp_path: Path) -> None:
     assert stored.measured().best(RATE, 'box') == []
 
 
+@pytest.mark.parametrize('scenes', [1, 2, 3])
+def test_a_geometric_mean_is_within_its_range_in_spite_of_rounding(scenes: int) -> None:
+    for thousandths in range(1, 1000):
+        assert Spread(scenes * (thousandths / 1000,)).geometric_mean == thousandths / 1000
+
+
 # ---- Over scenes --------------------------------------------------------------------------------
 
 
