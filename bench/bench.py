@@ -7,7 +7,6 @@
 # built, but for the template.
 SCENES = ['cornell', 'conference', 'atrium', 'statue', 'forest', 'hairball', 'stadium']
 MORE_SCENES = ['$BWFIRT_SCENES']  # in a full run
-QUICK_SCENES = [name for name in SCENES if name != 'hairball']  # which takes longest to build for
 PEERS = ['embree', 'embree:quality=medium', 'embree:robust=1']  # others are compared with the best
 KERNELS = ['simple-bvh', 'funky-kd', *PEERS, '*']  # of these, those that are built
 QUICK_KERNELS = ['simple-bvh', 'funky-kd', 'wide-bvh']  # likewise
@@ -39,9 +38,11 @@ except ModuleNotFoundError as missing:
              f'python3-{str(missing.name).lower()}')
 
 FULL = Extent(size='640x480', passes=16, repeats=3, controls=None, replay_rays=1000000,
-              replay_seconds=1, growth=(1000, 10000, 100000, 1000000, 10000000), time_limit=1800)
+              replay_seconds=1, replays_on_one_thread=True,
+              growth=(1000, 10000, 100000, 1000000, 10000000), time_limit=1800)
 QUICK = Extent(size='200x150', passes=2, repeats=2, controls=3, replay_rays=5000,
-               replay_seconds=0.02, growth=(1000, 10000, 100000), time_limit=120)
+               replay_seconds=0.02, replays_on_one_thread=False,
+               growth=(1000, 10000, 100000), time_limit=120)
 BENCH = ROOT / 'bench'
 MOST_BYTES = 2**62  # that a limit can be
 DONE, FAILED, WRONG_USAGE = 0, 1, 2
@@ -124,7 +125,7 @@ def plan_of(arguments: argparse.Namespace, results: Path) -> Plan:
     standard_kernels = [name for name in (QUICK_KERNELS if arguments.quick else KERNELS)
                         if name.partition(':')[0] in [*built, '*']]
     kernels = find_kernels(standard_kernels if arguments.kernels is None else chosen, build)
-    standard = QUICK_SCENES if arguments.quick else SCENES + MORE_SCENES
+    standard = SCENES if arguments.quick else SCENES + MORE_SCENES
     scenes = find_scenes(standard if arguments.scenes is None else arguments.scenes)
     extent = extent_of(arguments)
     threads = len(os.sched_getaffinity(0))

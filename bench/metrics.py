@@ -245,32 +245,35 @@ class Measured:
         return are_equal(a, b, self.noise(metric) or 0)
 
     def leader(self, metric: Metric, scene: str, kernels: Iterable[str]) -> str | None:
-        """The best by the median, of those that answer rightly; None where none has a figure."""
+        """The best by the median, None where none has a figure."""
         choose = max if metric.better == 'up' else min
-        return choose((kernel for kernel in kernels if self.spread(metric, scene, kernel)
-                       and self.is_right(scene, kernel)),
+        return choose((kernel for kernel in kernels if self.spread(metric, scene, kernel)),
                       key=lambda kernel: self.median(metric, scene, kernel), default=None)
 
     def best(self, metric: Metric, scene: str) -> list[str]:
         """The kernels that none is better than, of those that answer rightly."""
-        leader = self.leader(metric, scene, self.kernels)
-        return [kernel for kernel in self.kernels if leader and self.is_right(scene, kernel)
-                and self.is_equal(metric, scene, kernel, leader)]
+        right = [kernel for kernel in self.kernels if self.is_right(scene, kernel)]
+        leader = self.leader(metric, scene, right)
+        return [kernel for kernel in right
+                if leader and self.is_equal(metric, scene, kernel, leader)]
 
     def ratio(self, metric: Metric, scene: str, kernel: str, other: str) -> Spread | None:
         """A kernel's figures by those of another in the same repeats, in which they took turns.
 
         None where one of them has none or answers wrongly.
         """
-        if not self.is_right(scene, kernel) or not self.is_right(scene, other):
+        return self._paired(metric, scene, kernel, other) if self.is_right(scene, other) else None
+
+    def _paired(self, metric: Metric, scene: str, kernel: str, other: str) -> Spread | None:
+        if not self.is_right(scene, kernel):
             return None
         return paired(metric, *(self.runs(scene, name, metric.kind, metric.threads)
                                 for name in (kernel, other)))
 
     def by_peer(self, metric: Metric, scene: str, kernel: str) -> Spread | None:
-        """Its ratio to the best of the peers on the scene; None where none answers rightly."""
+        """Its ratio to the best of the peers on the scene, even where that one answers wrongly."""
         peer = self.leader(metric, scene, self.peers)
-        return self.ratio(metric, scene, kernel, peer) if peer else None
+        return self._paired(metric, scene, kernel, peer) if peer else None
 
     def scaling(self, metric: Metric, scene: str, kernel: str) -> Spread | None:
         """Figures on as many threads as the benchmark uses by those on one, in the same repeats."""

@@ -28,6 +28,7 @@ class Extent:
     controls: int | None  # the first scenes, so many, have a control; None: all
     replay_rays: int  # at least so many questions are recorded of each scene
     replay_seconds: float  # the shortest time of one measurement of a replay
+    replays_on_one_thread: bool  # whether kernels replay on one thread, too
     growth: tuple[int, ...]  # triangles, about
     time_limit: float  # of one run, in seconds
 
@@ -205,6 +206,6 @@ class Plan:
         if self.recorder:
             if repeat == 1:
                 yield Run(RECORD, scene, self.recorder, 1)
-            for threads in sorted({1, self.threads}):
+            for threads in sorted({self.threads, *([1] if self.extent.replays_on_one_thread else [])}):
                 yield from in_turn([Run(REPLAY, scene, kernel, threads, repeat)
                                     for kernel in self.kernels])

@@ -135,9 +135,9 @@ def by_peer(measured: Measured, threads: int) -> Table:
                  [[Cell(kernel), *(cell(metric, kernel) for metric in COMPARED)]
                   for kernel in measured.kernels],
                  'In parentheses: the scenes of the least and the greatest ratio. A number in '
-                 'brackets tells of how many scenes a mean is, where it is not of all. Peer: the '
-                 'fastest on the scene that answers rightly there, of these: '
-                 f"{', '.join(measured.peers)}.")
+                 'brackets tells of how many scenes a mean is, where it is not of all: a kernel '
+                 'that answers wrongly on a scene has no ratio there. Peer: the fastest on the '
+                 f"scene of these, wrong or right: {', '.join(measured.peers)}.")
 
 
 def failure_table(measured: Measured) -> Table:

@@ -272,18 +272,20 @@ def test_wrong_answers_are_those_of_the_worst_replay(tmp_path: Path) -> None:
     assert stored.measured().wrong_per_million('box', 'a') == 7
 
 
-def test_the_peer_is_the_best_right_one_on_the_scene(tmp_path: Path) -> None:
-    """On box the second of them, on hall the first; the fastest of all answers wrongly."""
+def test_the_peer_is_the_fastest_on_the_scene(tmp_path: Path) -> None:
+    """On box the second of them, on hall the first; a liar is a peer, too, but has no ratio."""
     for scene, fast, slow in [('box', 'two', 'one'), ('hall', 'one', 'two')]:
         stored = replayed(tmp_path, {'a': [30], slow: [10], fast: [15], 'funky-kd': [1]}, scene)
         stored.run(scene, 'liar', REPLAY, rate=99, answers={'ghost': 1})
     results = stored.measured().results
-    measured = Measured(results, peers=['one', 'two', 'liar', 'missing'])
+    measured = Measured(results, peers=['one', 'two', 'missing'])
     assert [measured.leader(RATE_MIXED, scene, measured.peers) for scene in ['box', 'hall']] == [
         'two', 'one']
     assert [measured.by_peer(RATE_MIXED, scene, 'a') for scene in ['box', 'hall']] == [
         Spread((2,)), Spread((2,))]
-    assert Measured(results, peers=['liar']).by_peer(RATE_MIXED, 'box', 'a') is None
+    lying = Measured(results, peers=['one', 'two', 'liar'])
+    assert lying.by_peer(RATE_MIXED, 'box', 'a') == Spread((30 / 99,))
+    assert lying.by_peer(RATE_MIXED, 'box', 'liar') is None
     assert Measured(results, peers=['missing']).by_peer(RATE_MIXED, 'box', 'a') == Spread((30,))
     assert Measured(results).by_peer(RATE_MIXED, 'box', 'a') == Spread((30,))
 

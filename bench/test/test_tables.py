@@ -167,12 +167,15 @@ def test_rates_and_ratios_of_kernels_alone(alone: Measured, threads: int, title:
     assert 'the peer is peer (mixed), peer (in flight)' in table.note
 
 
-def test_without_a_right_peer_on_a_scene_there_is_no_ratio(alone: Measured) -> None:
+def test_a_peer_that_answers_wrongly_is_a_measure_but_has_no_ratio(alone: Measured) -> None:
     table = tables.alone(alone, 'hall', 4)
-    assert {texts(cells)[8] for cells in table.rows} == {'\u2013'}
-    assert 'the peer is none (mixed)' in table.note
+    assert [texts(cells)[8] for cells in table.rows] == [
+        '0.33 (0.33\u20130.33)', '3.00 (3.00\u20133.00)', '\u2013']
+    assert 'the peer is peer (mixed)' in table.note
     assert [cells[0].error for cells in table.rows] == ['', '', '3 ppm wrong']
-    assert texts(row(tables.by_peer(alone, 4), 'fast'))[1] == '1.50 [1] (1.50 box\u20131.50 box)'
+    means = tables.by_peer(alone, 4)
+    assert texts(row(means, 'fast'))[1] == '2.12 (1.50 box\u20133.00 hall)'
+    assert texts(row(means, 'peer'))[1] == '1.00 [1] (1.00 box\u20131.00 box)'
 
 
 def test_means_of_ratios_name_the_scenes_of_the_least_and_the_greatest(alone: Measured) -> None:
