@@ -7,8 +7,9 @@
 # built, but for the template.
 SCENES = ['cornell', 'conference', 'atrium', 'statue', 'forest', 'hairball', 'stadium']
 MORE_SCENES = ['$BWFIRT_SCENES']  # in a full run
-KERNELS = ['simple-bvh', 'funky-kd', '*']
-QUICK_KERNELS = ['simple-bvh', 'funky-kd', 'wide-bvh']  # of these, those that are built
+PEERS = ['embree', 'embree:quality=medium', 'embree:robust=1']  # others are compared with the best
+KERNELS = ['simple-bvh', 'funky-kd', *PEERS, '*']  # of these, those that are built
+QUICK_KERNELS = ['simple-bvh', 'funky-kd', 'wide-bvh']  # likewise
 CONTROL = 'funky-kd'  # is measured against itself, to learn the noise
 THREAD_SCALING = ['conference']  # scenes that are rendered with fewer threads, too
 GROWTH = 'forest'  # a standard scene that is made of ever more triangles
@@ -37,9 +38,11 @@ except ModuleNotFoundError as missing:
              f'python3-{str(missing.name).lower()}')
 
 FULL = Extent(size='640x480', passes=16, repeats=3, controls=None, replay_rays=1000000,
-              replay_seconds=1, growth=(1000, 10000, 100000, 1000000, 10000000), time_limit=1800)
-QUICK = Extent(size='200x150', passes=2, repeats=2, controls=3, replay_rays=20000,
-               replay_seconds=0.05, growth=(1000, 10000, 100000), time_limit=120)
+              replay_seconds=1, replays_on_one_thread=True,
+              growth=(1000, 10000, 100000, 1000000, 10000000), time_limit=1800)
+QUICK = Extent(size='200x150', passes=2, repeats=2, controls=3, replay_rays=5000,
+               replay_seconds=0.02, replays_on_one_thread=False,
+               growth=(1000, 10000, 100000), time_limit=120)
 BENCH = ROOT / 'bench'
 MOST_BYTES = 2**62  # that a limit can be
 DONE, FAILED, WRONG_USAGE = 0, 1, 2
@@ -93,6 +96,8 @@ def parse_arguments() -> argparse.Namespace:
     add('--repeats', metavar='N', type=whole_number, help='of each run, default 3')
     add('--threads', metavar='N', type=whole_number, help='default: all that may be used')
     add('--passes', metavar='N', type=whole_number, help='samples per pixel, default 16')
+    add('--replay-seconds', metavar='S', type=number,
+        help='least time of each measurement in a replay, default 1')
     add('--size', metavar='WxH', type=size, help='of the image, default 640x480')
     add('--time-limit', metavar='SECONDS', type=number, help='of one run, default 1800')
     add('--memory-limit', metavar='GB', type=number, help="of one run's address space, "
@@ -107,7 +112,7 @@ def parse_arguments() -> argparse.Namespace:
 
 def extent_of(arguments: argparse.Namespace) -> Extent:
     base = QUICK if arguments.quick else FULL
-    given = {key: value for key in ['repeats', 'passes', 'size', 'time_limit']
+    given = {key: value for key in ['repeats', 'passes', 'size', 'replay_seconds', 'time_limit']
              if (value := getattr(arguments, key))}
     return Extent(**{**vars(base), **given})
 
@@ -117,8 +122,8 @@ def plan_of(arguments: argparse.Namespace, results: Path) -> Plan:
     build = arguments.build.absolute()
     built = built_kernels(build)
     chosen = [name for part in arguments.kernels or [] for name in part]
-    quick = [name for name in QUICK_KERNELS if name in built]
-    standard_kernels = quick if arguments.quick else KERNELS
+    standard_kernels = [name for name in (QUICK_KERNELS if arguments.quick else KERNELS)
+                        if name.partition(':')[0] in [*built, '*']]
     kernels = find_kernels(standard_kernels if arguments.kernels is None else chosen, build)
     standard = SCENES if arguments.quick else SCENES + MORE_SCENES
     scenes = find_scenes(standard if arguments.scenes is None else arguments.scenes)
@@ -171,7 +176,7 @@ def main() -> int:
             remove(plan, results)
         measurement.measure()
         selected = plan.names()
-    measured = Measured(read_results(results), selected)
+    measured = Measured(read_results(results), selected, PEERS)
     for path in write_report(measured, arguments.output):
         print(path)
     return DONE if any(result.done for result in measured.results) else FAILED

@@ -75,7 +75,7 @@ def machine(measured: Measured) -> Iterator[str]:
 def sessions(measured: Measured) -> Iterator[str]:
     for scene in measured.scenes:
         times = {result.bench['session'] for kernel in measured.kernels
-                 for result in measured.runs(scene, kernel)}
+                 for result in measured.runs(scene, kernel) + measured.replays(scene, kernel)}
         if len(times) > 1:
             yield (f'Measured in {len(times)} sessions, between {min(times)} and {max(times)}, '
                    f'{scene} among others: the machine may have changed in between.')
@@ -169,7 +169,7 @@ def failures(measured: Measured) -> list[tuple[str, str, str, str]]:
     for scene in measured.scenes:
         for kernel in measured.kernels:
             if measured.wrong_per_million(scene, kernel):
-                replay = measured.first(scene, kernel, REPLAY)
+                replay = measured.worst_replay(scene, kernel)
                 assert replay
                 counts = replay.report['replay']['answers']
                 rows.append((scene, kernel, 'wrong answers', ', '.join(

@@ -29,13 +29,16 @@ matplotlib.rcParams.update({
 })
 WIDTH = 3.35  # inches, half the width of the text
 
-# Okabe and Ito's colours, which colour-blind people tell apart, but for a darker yellow; in an
-# order in which neighbours differ in grey, too. Markers, lines and hatches tell apart the rest.
-# Hatches are of lines alone: dots and circles would make most of the bytes of an SVG figure.
-COLOURS = ['#0072B2', '#E69F00', '#009E73', '#DDCC33', '#D55E00', '#56B4E9', '#CC79A7', '#777777']
-HATCHES = ['', '////', '||||', 'xxxx', '\\\\\\\\', '++++', '//', '----']
-MARKERS = 'osD^vP*X'
-LINES = ['-', '--', '-.', ':', (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), (0, (7, 3))]
+# Okabe and Ito's colours, which colour-blind people tell apart, but for a darker yellow, and four
+# more; in an order in which neighbours differ in grey, too. Markers, lines and hatches tell apart
+# the rest. Hatches are of lines alone: dots and circles would make most of the bytes of an SVG.
+COLOURS = ['#0072B2', '#E69F00', '#009E73', '#DDCC33', '#D55E00', '#56B4E9', '#CC79A7', '#777777',
+           '#332288', '#999933', '#882255', '#BBBBBB']
+HATCHES = ['', '////', '||||', 'xxxx', '\\\\\\\\', '++++', '//', '----', '||', 'xx',
+           '\\\\', '++']
+MARKERS = 'osD^vP*X<>pd'
+LINES = ['-', '--', '-.', ':', (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), (0, (7, 3)),
+         (0, (9, 2, 2, 2)), (0, (2, 4)), (0, (5, 1, 1, 1, 1, 1)), (0, (9, 1))]
 DARK = '#333333'
 BLANK = {'facecolor': 'white', 'edgecolor': 'none', 'pad': 1}  # behind a text across lines
 ERROR_BARS = {'ecolor': 'black', 'error_kw': {'elinewidth': 0.8, 'capsize': 2, 'capthick': 0.8}}
@@ -189,7 +192,7 @@ def numerical_comparison(measured: Measured, scene: str) -> Figure | None:
     runs = [run for k in kernels if (run := measured.first(scene, k))]
     figure = Figure(figsize=(WIDTH, 0.85 + row_height(measured) * len(kernels)))
     axes = figure.subplots()
-    values = [SQUARED_ERROR.samples(run.report)[0] for run in runs]
+    values = [SQUARED_ERROR.value(run.report) for run in runs]
     variances = [sum(x * x for x in run.report['standard_error'] if x is not None) for run in runs]
     lowest = min([x for x in [*values, *variances] if x > 0], default=1e-12)
     highest = max([x for x in [*values, *variances] if x > 0], default=1)

@@ -15,8 +15,8 @@ import jinja2
 from tables import Table
 
 TEMPLATES = Path(__file__).resolve().parent / 'templates'
-PROGRAMS = [('pdflatex', 'texlive-latex-recommended and lmodern'),
-            ('epstopdf', 'texlive-font-utils')]  # and the Debian packages that they are in
+PROGRAMS = [('pdflatex', 'texlive-latex-recommended and lmodern'),  # and their Debian packages
+            ('epstopdf', 'texlive-font-utils'), ('gs', 'ghostscript')]
 LINE, CHARACTER, GAP = 495, 3.8, 8  # widths in a table: of all, of a character, of a gap, in points
 
 SPECIAL = {'\\': r'\textbackslash{}', '~': r'\textasciitilde{}', '^': r'\textasciicircum{}',
@@ -46,17 +46,27 @@ def breakable(text: str) -> str:
 
 
 def fitting(table: Table) -> list[Table]:
-    """Tables with some of the columns each, so that they fit the page; the first is in all."""
+    """As few tables as fit the page, about equally wide, with some of the columns each.
+
+    The first column is in all.
+    """
     def width(column: int) -> float:
         texts = [' '.join([row[column].text, row[column].error]).strip() for row in table.rows]
         return GAP + CHARACTER * max(map(len, [table.columns[column], *texts]))
-    parts: list[list[int]] = [[]]
-    for column in range(1, len(table.columns)):
-        if parts[-1] and width(0) + sum(map(width, [*parts[-1], column])) > LINE:
-            parts.append([])
-        parts[-1].append(column)
+    widths = [width(column) for column in range(len(table.columns))]
+
+    def parts(line: float) -> list[list[int]]:
+        parts: list[list[int]] = [[]]
+        for column in range(1, len(widths)):
+            if parts[-1] and sum(widths[c] for c in [0, *parts[-1], column]) > line:
+                parts.append([])
+            parts[-1].append(column)
+        return parts
+    fewest = len(parts(LINE))
+    narrowest = next(parts(line) for line in range(LINE + 1) if len(parts(line)) == fewest)
     return [replace(table, columns=[table.columns[c] for c in [0, *part]],
-                    rows=[[row[c] for c in [0, *part]] for row in table.rows]) for part in parts]
+                    rows=[[row[c] for c in [0, *part]] for row in table.rows])
+            for part in narrowest]
 
 
 def require_latex() -> None:

@@ -3,11 +3,12 @@
 
 import math
 import statistics
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
-from plan import CONTROL, RECORD, RECORDER, RENDER, REPLAY
+from plan import CONTROL, RECORDER, RENDER, REPLAY
 from results import NOT_MADE, Result
 
 Report = dict[str, Any]
@@ -24,27 +25,37 @@ class Metric:
     name: str
     unit: str
     better: str  # 'up' or 'down'
-    kind: str  # of the run that it is taken from: plan.RENDER or REPLAY
-    samples: Callable[[Report], list[float]]  # one or several measurements of a report
+    kind: str  # of the runs that it is taken from: plan.RENDER or REPLAY
+    value: Callable[[Report], float]
     is_exact: bool = False  # the same in each run, so that each difference is one
+    threads: int | None = None  # of these runs; None: as many as the benchmark uses
+
+    def alone(self, threads: int) -> 'Metric':
+        """The same figure of the kernel alone: one of ALONE, from replays on so many threads."""
+        return replace(self, kind=REPLAY, threads=threads)
 
 
-def replayed(rate: str) -> Callable[[Report], list[float]]:
-    return lambda report: [x / 1e6 for x in report['replay']['measurements'][f'{rate}_per_second']]
+def replayed(rate: str) -> Callable[[Report], float]:
+    """Of a replay: the median of its measurements, which depend on each other."""
+    return lambda report: report['replay'][f'{rate}_per_second'] / 1e6
 
 
-def megabytes(key: str) -> Callable[[Report], list[float]]:
-    return lambda report: [report['memory'][key] / 1e6]
+def megabytes(key: str) -> Callable[[Report], float]:
+    return lambda report: report['memory'][key] / 1e6
+
+
+def per_triangle(key: str) -> Callable[[Report], float]:
+    return lambda report: report['memory'][key] / report['triangles']
 
 
 TOTAL = Metric('total', 'Total running time', 's', 'down', RENDER,
-               lambda report: [report['time']['total_s']])
+               lambda report: report['time']['total_s'])
 INITIALIZE = Metric('initialize', 'Initialisation', 's', 'down', RENDER,
-                    lambda report: [report['time']['initialize_s']])
+                    lambda report: report['time']['initialize_s'])
 RENDERING = Metric('render', 'Rendering', 's', 'down', RENDER,
-                   lambda report: [report['time']['render_s']])
+                   lambda report: report['time']['render_s'])
 RATE = Metric('rate', 'Rays, gross', 'Mrays/s', 'up', RENDER,
-              lambda report: [report['rays']['per_second'] / 1e6])
+              lambda report: report['rays']['per_second'] / 1e6)
 RATE_H = Metric('h', 'h, replayed', 'Mrays/s', 'up', REPLAY, replayed('intersect'))
 RATE_V = Metric('V', 'V, replayed', 'Mrays/s', 'up', REPLAY, replayed('visibility'))
 RATE_MIXED = Metric('mixed', 'h and V, replayed', 'Mrays/s', 'up', REPLAY, replayed('mixed'))
@@ -54,15 +65,24 @@ PEAK = Metric('peak', 'Kernel memory, peak', 'MB', 'down', RENDER,
               megabytes('kernel_peak_bytes'), is_exact=True)
 FINAL = Metric('final', 'Kernel memory, final', 'MB', 'down', RENDER,
                megabytes('kernel_final_bytes'), is_exact=True)
-BYTES_PER_TRIANGLE = Metric(
-    'bytes_per_triangle', 'Final memory per triangle', 'bytes', 'down', RENDER,
-    lambda report: [report['memory']['kernel_final_bytes'] / report['triangles']], is_exact=True)
+PEAK_PER_TRIANGLE = Metric('peak_per_triangle', 'Peak memory per triangle', 'bytes', 'down', RENDER,
+                           per_triangle('kernel_peak_bytes'), is_exact=True)
+BYTES_PER_TRIANGLE = Metric('bytes_per_triangle', 'Final memory per triangle', 'bytes', 'down',
+                            RENDER, per_triangle('kernel_final_bytes'), is_exact=True)
 SQUARED_ERROR = Metric('squared_error', 'Squared error of the average intensity', '', 'down',
-                       RENDER, lambda report: [report['squared_error']], is_exact=True)
+                       RENDER, lambda report: report['squared_error'], is_exact=True)
 METRICS = [TOTAL, INITIALIZE, RENDERING, RATE, RATE_H, RATE_V, RATE_MIXED, RATE_IN_FLIGHT, PEAK,
-           FINAL, BYTES_PER_TRIANGLE, SQUARED_ERROR]
+           FINAL, PEAK_PER_TRIANGLE, BYTES_PER_TRIANGLE, SQUARED_ERROR]
 # Those in means over scenes.
 OVERALL = [TOTAL, INITIALIZE, RATE, RATE_H, RATE_V, RATE_MIXED, RATE_IN_FLIGHT, PEAK, FINAL]
+# Those that replays tell.
+ALONE = [INITIALIZE, PEAK_PER_TRIANGLE, BYTES_PER_TRIANGLE, RATE_H, RATE_V, RATE_MIXED,
+         RATE_IN_FLIGHT]
+
+
+def metrics_of(kind: str) -> list[Metric]:
+    """Those that a run of this kind tells."""
+    return ALONE if kind == REPLAY else [metric for metric in METRICS if metric.kind == RENDER]
 
 
 @dataclass(frozen=True)
@@ -85,7 +105,8 @@ class Spread:
 
     @property
     def geometric_mean(self) -> float:
-        return statistics.geometric_mean(self.samples)
+        """Within the range, in spite of rounding."""
+        return min(max(statistics.geometric_mean(self.samples), self.lowest), self.highest)
 
     @property
     def relative_range(self) -> float:
@@ -100,9 +121,11 @@ class Measured:
     others are compared with. So a kernel keeps its colour when it is measured again.
     """
 
-    def __init__(self, results: Iterable[Result],
-                 names: set[tuple[str, str]] | None = None) -> None:
-        """@param names of scene and kernel: the only ones to be taken"""
+    def __init__(self, results: Iterable[Result], names: set[tuple[str, str]] | None = None,
+                 peers: Sequence[str] = ()) -> None:
+        """@param names  of scene and kernel: the only ones to be taken
+        @param peers  kernels of which the best is the measure of others where any is measured
+        """
         self.results = [result for result in results
                         if names is None or (result.scene, result.kernel) in names]
         main = [result for result in self.results if result.bench['scale'] is None]
@@ -117,24 +140,30 @@ class Measured:
         self.threads = max((result.fingerprint['threads'] for result in main
                             if 'threads' in result.fingerprint), default=0)
         self.reference = REFERENCE if REFERENCE in self.kernels else next(iter(self.kernels), '')
+        self.peers = [kernel for kernel in peers if kernel in self.kernels] or [self.reference]
+        self.replay_threads = sorted({result.threads for result in main if result.kind == REPLAY})
+        self._runs: dict[tuple[str, str, str, int], list[Result]] = defaultdict(list)
+        for result in self.results:
+            self._runs[result.scene, result.kernel, result.kind, result.threads].append(result)
 
-    def runs(self, scene: str, kernel: str, kind: str = RENDER) -> list[Result]:
-        """Of one kernel on one scene, with as many threads as the benchmark uses, done or not."""
-        return [result for result in self.results
-                if (result.scene, result.kernel, result.kind) == (scene, kernel, kind)
-                and result.threads in (self.threads, 1 if kind == RECORD else None)]
+    def runs(self, scene: str, kernel: str, kind: str = RENDER,
+             threads: int | None = None) -> list[Result]:
+        """Of one kernel on one scene, done or not.
 
-    def first(self, scene: str, kernel: str, kind: str = RENDER) -> Result | None:
-        """The first of these runs that is done."""
-        return next((result for result in self.runs(scene, kernel, kind) if result.done), None)
+        @param threads None: as many as the benchmark uses
+        """
+        return self._runs.get((scene, kernel, kind, threads or self.threads), [])
 
-    def spread(self, metric: Metric, scene: str, kernel: str,
-               kind: str | None = None) -> Spread | None:
+    def first(self, scene: str, kernel: str) -> Result | None:
+        """The first rendering that is done."""
+        return next((result for result in self.runs(scene, kernel) if result.done), None)
+
+    def spread(self, metric: Metric, scene: str, kernel: str) -> Spread | None:
         """None where there is no measurement, as in a run that failed once.
 
         A kernel that fails in one of its repeats has no figures.
         """
-        return spread_of(metric, self.runs(scene, kernel, kind or metric.kind))
+        return spread_of(metric, self.runs(scene, kernel, metric.kind, metric.threads))
 
     def median(self, metric: Metric, scene: str, kernel: str) -> float:
         """NaN where there is no measurement."""
@@ -143,11 +172,9 @@ class Measured:
 
     def by_threads(self, metric: Metric, scene: str, kernel: str) -> dict[int, Spread]:
         """A figure for each number of threads."""
-        runs = [result for result in self.results
-                if (result.scene, result.kernel, result.kind) == (scene, kernel, RENDER)]
-        spreads = {n: spread_of(metric, [run for run in runs if run.threads == n])
-                   for n in sorted({run.threads for run in runs})}
-        return {n: spread for n, spread in spreads.items() if spread}
+        counts = sorted({result.threads for result in self.results})
+        return {n: spread for n in counts
+                if (spread := self.spread(replace(metric, threads=n), scene, kernel))}
 
     def by_triangles(self, metric: Metric, kernel: str) -> list[tuple[float, Spread]]:
         """A figure for each size of the scene that is made for growth curves: triangles, figure."""
@@ -158,26 +185,29 @@ class Measured:
         return sorted(((of_one[0].report['triangles'], spread) for of_one in runs.values()
                        if (spread := spread_of(metric, of_one))), key=lambda point: point[0])
 
-    def wrong_per_million(self, scene: str, kernel: str) -> float | None:
-        """Wrong answers in a million questions of the scene's ray stream; None if not replayed.
+    def replays(self, scene: str, kernel: str) -> list[Result]:
+        """All of them, on one thread and on all, done or not."""
+        return [run for threads in self.replay_threads
+                for run in self.runs(scene, kernel, REPLAY, threads)]
 
-        Asked alone or in flight, whichever has more of them.
-        """
-        replay = self.first(scene, kernel, REPLAY)
+    def worst_replay(self, scene: str, kernel: str) -> Result | None:
+        """The one with most wrong answers; None if none is done."""
+        return max((run for run in self.replays(scene, kernel) if run.done),
+                   key=lambda run: count_wrong(run.report), default=None)
+
+    def wrong_per_million(self, scene: str, kernel: str) -> float | None:
+        """Wrong answers in a million questions of the scene's ray stream; None if not replayed."""
+        replay = self.worst_replay(scene, kernel)
         if replay is None:
             return None
-        report = replay.report['replay']
-        wrong = max(sum(report[answers][name] for name in WRONG_ANSWERS)
-                    for answers in ['answers', 'answers_in_flight'])
-        return 1e6 * wrong / sum(report['rays'].values())
+        return 1e6 * count_wrong(replay.report) / sum(replay.report['replay']['rays'].values())
 
     def is_right(self, scene: str, kernel: str) -> bool:
         """Whether nothing is known against its answers, as wrong ones or a replay that failed.
 
         Nothing is where nobody asked, for want of a ray stream.
         """
-        replays = self.runs(scene, kernel, REPLAY)
-        return (all(run.done or run.status == NOT_MADE for run in replays)
+        return (all(run.done or run.status == NOT_MADE for run in self.replays(scene, kernel))
                 and not self.wrong_per_million(scene, kernel))
 
     def noise(self, metric: Metric) -> float | None:
@@ -199,7 +229,7 @@ class Measured:
         if metric.kind != RENDER:
             return None
         itself = self.spread(metric, scene, kernel)
-        control = self.spread(metric, scene, kernel, CONTROL)
+        control = self.spread(replace(metric, kind=CONTROL), scene, kernel)
         if not itself or not control or not itself.median * control.median > 0:
             return None
         return control.median / itself.median
@@ -214,26 +244,49 @@ class Measured:
             return False
         return are_equal(a, b, self.noise(metric) or 0)
 
+    def leader(self, metric: Metric, scene: str, kernels: Iterable[str]) -> str | None:
+        """The best by the median, None where none has a figure."""
+        choose = max if metric.better == 'up' else min
+        return choose((kernel for kernel in kernels if self.spread(metric, scene, kernel)),
+                      key=lambda kernel: self.median(metric, scene, kernel), default=None)
+
     def best(self, metric: Metric, scene: str) -> list[str]:
         """The kernels that none is better than, of those that answer rightly."""
-        right = [kernel for kernel in self.kernels if self.spread(metric, scene, kernel)
-                 and self.is_right(scene, kernel)]
-        if not right:
-            return []
-        choose = max if metric.better == 'up' else min
-        best = choose(right, key=lambda kernel: self.median(metric, scene, kernel))
+        right = [kernel for kernel in self.kernels if self.is_right(scene, kernel)]
+        leader = self.leader(metric, scene, right)
         return [kernel for kernel in right
-                if kernel == best or self.is_equal(metric, scene, kernel, best)]
+                if leader and self.is_equal(metric, scene, kernel, leader)]
+
+    def ratio(self, metric: Metric, scene: str, kernel: str, other: str) -> Spread | None:
+        """A kernel's figures by those of another in the same repeats, in which they took turns.
+
+        None where one of them has none or answers wrongly.
+        """
+        return self._paired(metric, scene, kernel, other) if self.is_right(scene, other) else None
+
+    def _paired(self, metric: Metric, scene: str, kernel: str, other: str) -> Spread | None:
+        if not self.is_right(scene, kernel):
+            return None
+        return paired(metric, *(self.runs(scene, name, metric.kind, metric.threads)
+                                for name in (kernel, other)))
+
+    def by_peer(self, metric: Metric, scene: str, kernel: str) -> Spread | None:
+        """Its ratio to the best of the peers on the scene, even where that one answers wrongly."""
+        peer = self.leader(metric, scene, self.peers)
+        return self._paired(metric, scene, kernel, peer) if peer else None
+
+    def scaling(self, metric: Metric, scene: str, kernel: str) -> Spread | None:
+        """Figures on as many threads as the benchmark uses by those on one, in the same repeats."""
+        return paired(metric, self.runs(scene, kernel, metric.kind),
+                      self.runs(scene, kernel, metric.kind, 1))
 
     def relative(self, metric: Metric, kernel: str) -> Spread | None:
         """A kernel's figures by those of the reference, one for each scene.
 
         Of the scenes where both have one and answer rightly. None where there is none.
         """
-        pairs = [(self.median(metric, scene, kernel), self.median(metric, scene, self.reference))
-                 for scene in self.scenes
-                 if self.is_right(scene, kernel) and self.is_right(scene, self.reference)]
-        ratios = tuple(a / b for a, b in pairs if a > 0 and b > 0)
+        ratios = tuple(spread.median for scene in self.scenes
+                       if (spread := self.ratio(metric, scene, kernel, self.reference)))
         return Spread(ratios) if ratios else None
 
     def ahead(self, scene: str, kernel: str, other: str) -> tuple[float, float] | None:
@@ -261,7 +314,26 @@ def spread_of(metric: Metric, runs: list[Result]) -> Spread | None:
     """None where there is no run, or one that failed."""
     if not runs or not all(result.done for result in runs):
         return None
-    return Spread(tuple(x for result in runs for x in metric.samples(result.report)))
+    return Spread(tuple(metric.value(result.report) for result in runs))
+
+
+def paired(metric: Metric, runs: list[Result], others: list[Result]) -> Spread | None:
+    """The ratio of a figure to that of another run in the same repeat, one for each repeat.
+
+    None where a run failed, or where no repeat has two figures above 0.
+    """
+    if not spread_of(metric, runs) or not spread_of(metric, others):
+        return None
+    by_repeat = {other.repeat: metric.value(other.report) for other in others}
+    pairs = [(metric.value(run.report), by_repeat.get(run.repeat, 0)) for run in runs]
+    ratios = tuple(a / b for a, b in pairs if a > 0 and b > 0)
+    return Spread(ratios) if ratios else None
+
+
+def count_wrong(report: Report) -> int:
+    """Of a replay: those asked alone or in flight, whichever are more."""
+    return max(sum(report['replay'][answers][name] for name in WRONG_ANSWERS)
+               for answers in ['answers', 'answers_in_flight'])
 
 
 def are_equal(a: Spread, b: Spread, noise: float) -> bool:

@@ -28,6 +28,7 @@ class Extent:
     controls: int | None  # the first scenes, so many, have a control; None: all
     replay_rays: int  # at least so many questions are recorded of each scene
     replay_seconds: float  # the shortest time of one measurement of a replay
+    replays_on_one_thread: bool  # whether kernels replay on one thread, too
     growth: tuple[int, ...]  # triangles, about
     time_limit: float  # of one run, in seconds
 
@@ -81,8 +82,8 @@ class Run:
         """The path of its results below the folder of results, without an ending."""
         kernel = self.kernel.name.replace('/', '%')  # its options may name a file
         folder = f'{self.scene.name}/{kernel}'
-        if self.kind in (RECORD, REPLAY):
-            return f'{folder}/{self.kind}'
+        if self.kind == RECORD:
+            return f'{folder}/{RECORD}'
         return f'{folder}/{self.kind}-{self.threads}-threads-{self.repeat}'
 
 
@@ -158,6 +159,12 @@ def thread_counts(threads: int) -> list[int]:
     return sorted({2**power for power in range(threads.bit_length())} | {threads})
 
 
+def in_turn(runs: list[Run]) -> list[Run]:
+    """Runs of one repeat. Each repeat begins with another one, so that none always comes first."""
+    first = (runs[0].repeat - 1) % len(runs)
+    return runs[first:] + runs[:first]
+
+
 @dataclass(frozen=True)
 class Plan:
     """All runs of a benchmark."""
@@ -176,30 +183,29 @@ class Plan:
         return {(run.scene.name, run.kernel.name) for run in self.runs()}
 
     def runs(self) -> Iterator[Run]:
-        """In the order in which they are made.
-
-        Within each repeat the kernels take turns on each scene. Each repeat begins with another
-        kernel, so that none always comes first.
-        """
+        """In the order in which they are made: within each repeat the kernels take turns."""
         for repeat in range(1, self.extent.repeats + 1):
             for scene in self.scenes:
-                yield from self._turn(scene, repeat)
+                yield from self._renders(scene, repeat)
+                yield from self._replays(scene, repeat)
             for scene in self.growth:
-                for kernel in self.kernels:
-                    yield Run(RENDER, scene, kernel, self.threads, repeat)
-        if self.recorder:
-            for scene in self.scenes:
-                yield Run(RECORD, scene, self.recorder, 1)
-                for kernel in self.kernels:
-                    yield Run(REPLAY, scene, kernel, self.threads)
+                yield from in_turn([Run(RENDER, scene, kernel, self.threads, repeat)
+                                    for kernel in self.kernels])
 
-    def _turn(self, scene: Scene, repeat: int) -> Iterator[Run]:
+    def _renders(self, scene: Scene, repeat: int) -> Iterator[Run]:
         runs = [Run(RENDER, scene, kernel, self.threads, repeat) for kernel in self.kernels]
         runs += [Run(CONTROL, scene, kernel, self.threads, repeat) for kernel in self.kernels
                  if kernel.name == self.control and scene in self.scenes[:self.extent.controls]]
-        first = (repeat - 1) % len(runs)
-        yield from runs[first:] + runs[:first]
+        yield from in_turn(runs)
         if scene.name in self.scaling:
             for threads in thread_counts(self.threads)[:-1]:
-                for kernel in self.kernels:
-                    yield Run(RENDER, scene, kernel, threads, repeat)
+                yield from in_turn([Run(RENDER, scene, kernel, threads, repeat)
+                                    for kernel in self.kernels])
+
+    def _replays(self, scene: Scene, repeat: int) -> Iterator[Run]:
+        if self.recorder:
+            if repeat == 1:
+                yield Run(RECORD, scene, self.recorder, 1)
+            for threads in sorted({self.threads, *([1] if self.extent.replays_on_one_thread else [])}):
+                yield from in_turn([Run(REPLAY, scene, kernel, threads, repeat)
+                                    for kernel in self.kernels])

@@ -19,7 +19,7 @@ import figures
 import tables
 from doubts import doubts, failures
 from latex import require_latex, write_pdf
-from metrics import METRICS, Measured
+from metrics import METRICS, Measured, metrics_of
 from pictures import Difference, difference
 from plan import RECORDER, REPLAY
 from results import Result
@@ -85,7 +85,7 @@ def scene_reports(measured: Measured, folder: Path) -> list[SceneReport]:
                      None)
         reports.append(SceneReport(number, scene, first.report if first else {},
                                    pictures_of(measured, scene, number, folder),
-                                   [table(measured, scene) for table in tables.SCENE_TABLES]))
+                                   tables.of_scene(measured, scene)))
     return reports
 
 
@@ -139,7 +139,7 @@ def content(measured: Measured, folder: Path) -> dict[str, Any]:
         'reference': measured.reference,
         'warnings': doubts(measured),
         'failures': tables.failure_table(measured) if failures(measured) else None,
-        'summary': [table(measured) for table in tables.SUMMARY],
+        'summary': tables.summary(measured),
         'scenes': scene_reports(measured, folder),
         'overall': [table(measured) for table in tables.OVERALL_TABLES],
         'system': [table(measured) for table in tables.SYSTEM_TABLES],
@@ -159,18 +159,13 @@ def write_csv(measured: Measured) -> str:
                      *(f'{metric.key} [{metric.unit}]' if metric.unit else metric.key
                        for metric in METRICS), 'average_intensity', 'wrong_per_million'])
     for result in measured.results:
+        told = metrics_of(result.kind) if result.done else []
         writer.writerow([*(getattr(result, key) for key in keys), result.bench['started'],
                          result.report.get('triangles', ''),
-                         *(_sample(metric, result) for metric in METRICS),
+                         *(repr(metric.value(result.report)) if metric in told else ''
+                           for metric in METRICS),
                          _intensity(result), _wrong(measured, result)])
     return text.getvalue()
-
-
-def _sample(metric: Any, result: Result) -> str:
-    if not result.done or (metric.kind == REPLAY) != (result.kind == REPLAY):
-        return ''
-    samples = sorted(metric.samples(result.report))
-    return repr(samples[len(samples) // 2])
 
 
 def _intensity(result: Result) -> str:

@@ -95,9 +95,9 @@ class Measurement:
         A ray stream is needed where a kernel is yet to replay it.
         """
         if run.kind == RECORD:
-            replays = (Run(REPLAY, run.scene, kernel, self.plan.threads)
-                       for kernel in self.plan.kernels)
-            return self.result_of(run) is None and any(map(self.is_needed, replays))
+            return self.result_of(run) is None and any(
+                self.is_needed(replay) for replay in self.plan.runs()
+                if (replay.kind, replay.scene) == (REPLAY, run.scene))
         first = Run(run.kind, run.scene, run.kernel, run.threads)
         failed = (result := self.result_of(first)) is not None and not result.done
         return not failed and self.result_of(run) is None

@@ -10,8 +10,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from metrics import ANSWERS, METRICS, RATE, Report
-from plan import RENDER, REPLAY
+from metrics import ANSWERS, RATE, Report, metrics_of
+from plan import REPLAY
 
 UNREADABLE = 'unreadable report'  # there is none, or not all of it
 WRONG = 'wrong report'  # of another run, or with figures that cannot be
@@ -59,7 +59,7 @@ def read_report(path: Path, kind: str, asked: Mapping[str, Any]) -> Report:
     if kind != REPLAY:
         _require_colours(report)
     _require_warnings(report)
-    _require_metrics(report, REPLAY if kind == REPLAY else RENDER)
+    _require_metrics(report, kind)
     return report
 
 
@@ -105,15 +105,11 @@ def _require_warnings(report: Report) -> None:
 
 
 def _require_metrics(report: Report, kind: str) -> None:
-    for metric in METRICS:
-        if metric.kind != kind:
-            continue
+    for metric in metrics_of(kind):
         try:
-            samples = metric.samples(report)
+            value = metric.value(report)
         except (KeyError, TypeError, AttributeError, ArithmeticError) as error:
             raise BadReport(UNREADABLE, f'{metric.name}: {type(error).__name__}: {error}') from None
-        _require(len(samples) > 0, UNREADABLE, f'{metric.name} was not measured')
-        for sample in samples:
-            _require_number(metric.name, sample)
-    if kind == RENDER:
-        _require(RATE.samples(report)[0] > 0, WRONG, f'{RATE.name} is 0')
+        _require_number(metric.name, value)
+    if kind != REPLAY:
+        _require(RATE.value(report) > 0, WRONG, f'{RATE.name} is 0')

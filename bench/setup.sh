@@ -12,7 +12,8 @@ packages='
     python3-numpy python3-pytest
     chromium chromium-driver python3-selenium
     python3-matplotlib python3-jinja2 python3-tqdm python3-imageio libfreeimage3
-    texlive-latex-base texlive-latex-recommended texlive-font-utils lmodern poppler-utils
+    texlive-latex-base texlive-latex-recommended texlive-font-utils ghostscript lmodern
+    poppler-utils
 '
 
 missing=

@@ -3,13 +3,14 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from doubts import failures, percent
 from figures import ppm_wrong, short, si
-from metrics import (ANSWERS, BYTES_PER_TRIANGLE, FINAL, INITIALIZE, OVERALL, PEAK, RATE, RATE_H,
-                     RATE_IN_FLIGHT, RATE_MIXED, RATE_V, RENDERING, TOTAL, Measured, Metric, Report)
-from plan import CONTROL, RECORD, REPLAY
+from metrics import (ALONE, ANSWERS, BYTES_PER_TRIANGLE, FINAL, INITIALIZE, OVERALL, PEAK,
+                     PEAK_PER_TRIANGLE, RATE, RATE_H, RATE_IN_FLIGHT, RATE_MIXED, RATE_V, RENDERING,
+                     TOTAL, Measured, Metric, Report, Spread)
+from plan import CONTROL, RECORD
 
 
 @dataclass(frozen=True)
@@ -32,6 +33,9 @@ class Table:
     note: str = ''
 
 
+COMPARED = {RATE_MIXED: 'mixed', RATE_IN_FLIGHT: 'in flight'}  # with the best of the peers
+
+
 def number(x: float, text: str | None = None, **more: object) -> Cell:
     return Cell(text if text is not None else short(x), x, **more)  # type: ignore[arg-type]
 
@@ -49,16 +53,21 @@ def wrong_answers(measured: Measured, scene: str, kernel: str) -> str:
 
 def figure_cell(measured: Measured, metric: Metric, scene: str, kernel: str,
                 with_range: bool = False) -> Cell:
-    """A median, with its wrong answers where there are any, or how the runs failed."""
+    """A median, or how the runs failed. Wrong answers have to be shown beside it."""
     spread = measured.spread(metric, scene, kernel)
     if spread is None:
-        failed = [run for run in measured.runs(scene, kernel, metric.kind) if not run.done]
+        runs = measured.runs(scene, kernel, metric.kind, metric.threads)
+        failed = [run for run in runs if not run.done]
         return Cell('', error=failed[0].status) if failed else NOTHING
     text = short(spread.median)
     if with_range and not metric.is_exact:
         text += f' ({short(spread.lowest)}\u2013{short(spread.highest)})'
-    return number(spread.median, text, is_best=kernel in measured.best(metric, scene),
-                  error=wrong_answers(measured, scene, kernel))
+    return number(spread.median, text, is_best=kernel in measured.best(metric, scene))
+
+
+def kernel_cell(measured: Measured, scene: str, kernel: str) -> Cell:
+    """Its name, with its wrong answers where there are any."""
+    return Cell(kernel, error=wrong_answers(measured, scene, kernel))
 
 
 def speed(measured: Measured) -> Table:
@@ -67,8 +76,12 @@ def speed(measured: Measured) -> Table:
             'they differ by less than the noise' +
             (f', which is {percent(noise)} here' if noise is not None else '') +
             '. Kernels whose answers are wrong are not ranked.')
-    rows = [[Cell(scene), *(figure_cell(measured, RATE, scene, kernel)
-                            for kernel in measured.kernels)] for scene in measured.scenes]
+
+    def cell(scene: str, kernel: str) -> Cell:
+        figure = figure_cell(measured, RATE, scene, kernel)
+        return replace(figure, error=figure.error or wrong_answers(measured, scene, kernel))
+    rows = [[Cell(scene), *(cell(scene, kernel) for kernel in measured.kernels)]
+            for scene in measured.scenes]
     return Table('Million rays per second, gross: medians', ['scene', *measured.kernels], rows,
                  note)
 
@@ -102,6 +115,31 @@ def kernels(measured: Measured) -> Table:
                  'all. Wrong: answers in a million, on the worst scene.')
 
 
+def kernels_alone(threads: int) -> str:
+    return f"Kernels alone, {f'{threads} threads' if threads > 1 else 'one thread'}"
+
+
+def by_peer(measured: Measured, threads: int) -> Table:
+    def cell(metric: Metric, kernel: str) -> Cell:
+        ratios = {scene: spread.median for scene in measured.scenes
+                  if (spread := measured.by_peer(metric.alone(threads), scene, kernel))}
+        if not ratios:
+            return NOTHING
+        least, greatest = (choose(ratios, key=ratios.__getitem__) for choose in (min, max))
+        mean = Spread(tuple(ratios.values())).geometric_mean
+        some = f' [{len(ratios)}]' if len(ratios) < len(measured.scenes) else ''
+        return number(mean, f'{mean:.2f}{some} ({ratios[least]:.2f} {least}\u2013'
+                            f'{ratios[greatest]:.2f} {greatest})')
+    return Table(f'{kernels_alone(threads)}: geometric means over the scenes, by the peer',
+                 ['kernel', *COMPARED.values()],
+                 [[Cell(kernel), *(cell(metric, kernel) for metric in COMPARED)]
+                  for kernel in measured.kernels],
+                 'In parentheses: the scenes of the least and the greatest ratio. A number in '
+                 'brackets tells of how many scenes a mean is, where it is not of all: a kernel '
+                 'that answers wrongly on a scene has no ratio there. Peer: the fastest on the '
+                 f"scene of these, wrong or right: {', '.join(measured.peers)}.")
+
+
 def failure_table(measured: Measured) -> Table:
     return Table('Failures', ['scene', 'kernel', 'what', 'message'],
                  [[Cell(text) for text in row] for row in failures(measured)])
@@ -109,22 +147,48 @@ def failure_table(measured: Measured) -> Table:
 
 def times(measured: Measured, scene: str) -> Table:
     metrics = {INITIALIZE: 'initialise s', RENDERING: 'render s', TOTAL: 'total s',
-               RATE: 'Mrays/s, gross', RATE_MIXED: 'Mrays/s, replayed',
-               RATE_IN_FLIGHT: 'in flight'}
-    rows = [[Cell(kernel), *(figure_cell(measured, metric, scene, kernel, with_range=True)
-                             for metric in metrics)] for kernel in measured.kernels]
+               RATE: 'Mrays/s, gross'}
+    rows = [[kernel_cell(measured, scene, kernel),
+             *(figure_cell(measured, metric, scene, kernel, with_range=True)
+               for metric in metrics)] for kernel in measured.kernels]
     return Table('Times and rates: medians (lowest\u2013highest)', ['kernel', *metrics.values()],
                  rows)
 
 
+def alone(measured: Measured, scene: str, threads: int) -> Table:
+    names = ['build s', 'peak B/tri.', 'final B/tri.', 'h', 'V', 'mixed', 'in flight']
+    compared = {name: metric.alone(threads) for metric, name in COMPARED.items()}
+
+    def ratio(metric: Metric, kernel: str) -> Cell:
+        spread = measured.by_peer(metric, scene, kernel)
+        return NOTHING if spread is None else number(
+            spread.median, f'{spread.median:.2f} ({spread.lowest:.2f}\u2013{spread.highest:.2f})')
+
+    def row(kernel: str) -> list[Cell]:
+        return [kernel_cell(measured, scene, kernel),
+                *(figure_cell(measured, metric.alone(threads), scene, kernel, with_range=True)
+                  for metric in ALONE),
+                *(ratio(metric, kernel) for metric in compared.values())]
+    peers = ', '.join(f'{measured.leader(metric, scene, measured.peers) or "none"} ({name})'
+                      for name, metric in compared.items())
+    return Table(f'{kernels_alone(threads)}: medians (lowest\u2013highest)',
+                 ['kernel', *names, *(f'{name} / peer' for name in compared)],
+                 [row(kernel) for kernel in measured.kernels],
+                 'h, V, mixed, in flight: million rays per second, replayed. B/tri.: bytes per '
+                 'triangle. Ratios are those within a repeat, in which the kernels took turns; the '
+                 f'peer is {peers}.')
+
+
 def memory(measured: Measured, scene: str) -> Table:
-    metrics = {PEAK: 'peak MB', FINAL: 'final MB', BYTES_PER_TRIANGLE: 'final bytes per triangle'}
+    metrics = {PEAK: 'peak MB', FINAL: 'final MB', PEAK_PER_TRIANGLE: 'peak bytes per triangle',
+               BYTES_PER_TRIANGLE: 'final bytes per triangle'}
 
     def row(kernel: str) -> list[Cell]:
         run = measured.first(scene, kernel)
         cells = [figure_cell(measured, metric, scene, kernel) for metric in metrics]
         process = run.report['memory']['process_peak_bytes'] / 1e6 if run else None
-        return [Cell(kernel), *cells, number(process) if process is not None else NOTHING]
+        return [kernel_cell(measured, scene, kernel), *cells,
+                number(process) if process is not None else NOTHING]
     return Table('Memory of the kernel, and of the whole process',
                  ['kernel', *metrics.values(), 'process peak MB'],
                  [row(kernel) for kernel in measured.kernels])
@@ -151,9 +215,9 @@ def intensity(measured: Measured, scene: str) -> Table:
 
 def answers(measured: Measured, scene: str) -> Table:
     def row(kernel: str) -> list[Cell]:
-        replay = measured.first(scene, kernel, REPLAY)
+        replay = measured.worst_replay(scene, kernel)
         if replay is None:
-            failed = [run for run in measured.runs(scene, kernel, REPLAY) if not run.done]
+            failed = measured.replays(scene, kernel)
             status = failed[0].status if failed else 'not replayed'
             return [Cell(kernel), Cell('', error=status), *[NOTHING] * (len(ANSWERS) + 1)]
         report = replay.report['replay']
@@ -164,7 +228,7 @@ def answers(measured: Measured, scene: str) -> Table:
                          error='' if name == 'tie' or not count else '!') for name in ANSWERS),
                 number(distance, f'{distance:.2g}')]
     recorders = {run.report['replay']['recorded_by'] for kernel in measured.kernels
-                 if (run := measured.first(scene, kernel, REPLAY))}
+                 if (run := measured.worst_replay(scene, kernel))}
     others = ', '.join(sorted(recorders)) or 'the recorder'
     return Table(f'Answers that differ from those of {others}',
                  ['kernel', 'questions', *(name.replace('_', ' ') for name in ANSWERS),
@@ -206,6 +270,16 @@ def break_even(measured: Measured) -> Table:
                  ['scene', *measured.kernels],
                  [[Cell(scene), *(cell(scene, kernel) for kernel in measured.kernels)]
                   for scene in measured.scenes])
+
+
+def scaling(measured: Measured) -> Table:
+    def cell(scene: str, kernel: str) -> Cell:
+        spread = measured.scaling(RATE_MIXED, scene, kernel)
+        return NOTHING if spread is None else number(spread.median, f'{spread.median:.2f}')
+    rows = [[Cell(scene), *(cell(scene, kernel) for kernel in measured.kernels)]
+            for scene in measured.scenes if len(measured.replay_threads) > 1]
+    return Table(f'Kernels alone, scaling: mixed on {measured.threads} threads by one',
+                 ['scene', *measured.kernels], rows, 'Medians of the ratios within each repeat.')
 
 
 def size(count: float) -> str:
@@ -268,7 +342,15 @@ def scenes(measured: Measured) -> Table:
                             'SHA-256 of the camera begins'], rows)
 
 
-SUMMARY: list[Callable[[Measured], Table]] = [speed, kernels]
-SCENE_TABLES: list[Callable[[Measured, str], Table]] = [times, memory, intensity, answers]
-OVERALL_TABLES: list[Callable[[Measured], Table]] = [break_even, control]
+def summary(measured: Measured) -> list[Table]:
+    return [speed(measured), kernels(measured),
+            *(by_peer(measured, threads) for threads in measured.replay_threads)]
+
+
+def of_scene(measured: Measured, scene: str) -> list[Table]:
+    return [*(alone(measured, scene, threads) for threads in measured.replay_threads),
+            *(table(measured, scene) for table in [times, memory, intensity, answers])]
+
+
+OVERALL_TABLES: list[Callable[[Measured], Table]] = [scaling, break_even, control]
 SYSTEM_TABLES: list[Callable[[Measured], Table]] = [system, compilers, scenes]

@@ -29,7 +29,7 @@ from stored import render_report, replay_report, write_images
 
 BENCH = Path(bench_run.__file__).resolve().parent
 SHORT = Extent(size='8x6', passes=16, repeats=3, controls=None, replay_rays=1000000,
-               replay_seconds=1, growth=(),
+               replay_seconds=1, replays_on_one_thread=True, growth=(),
                time_limit=20)
 CAMERA = 'type pinhole\n'
 

@@ -168,7 +168,7 @@ class Stored:
         full = changed(full, report) if status == 'done' else {}
         added = changed(self._bench(scene, kernel, kind, repeat, threads, all_threads, scale,
                                     status, message), bench)
-        name = kind if kind in (RECORD, REPLAY) else f'{kind}-{threads}-threads-{repeat}'
+        name = kind if kind == RECORD else f'{kind}-{threads}-threads-{repeat}'
         path = self.folder / scene / kernel / name
         path.parent.mkdir(parents=True, exist_ok=True)
         if status == 'done' and kind == RENDER and repeat == 1 and threads == all_threads \
@@ -219,7 +219,7 @@ class Stored:
                         function of scene, kernel and repeat
         @param answers  of a kernel, that differ: {'funky-kd': {'missed': 3}}
         @param control  the kernel that is measured against itself; None for no control
-        @param replays  whether rays are recorded and replayed
+        @param replays  whether rays are recorded and replayed, on one thread and on all
         @param scaling  scenes that are rendered with one and with two threads, too
         @param growth   numbers of triangles of the scene that grows
         @param report   changes of all run reports but those of replays
@@ -243,16 +243,18 @@ class Stored:
                     for kernel in kernels:
                         self.run(scene, kernel, repeat=repeat, threads=threads, report=report,
                                  bench=bench, rate=rate(scene, kernel, repeat) * threads / THREADS)
+                if replays and repeat == 1:
+                    self.run(scene, RECORDER, RECORD, threads=1, bench=bench)
+                for threads in (1, THREADS) if replays else ():
+                    for kernel in kernels:
+                        self.run(scene, kernel, REPLAY, repeat=repeat, threads=threads, bench=bench,
+                                 answers=answers.get(kernel),
+                                 rate=2 * rate(scene, kernel, repeat) * threads / THREADS)
             for triangles in growth:
                 for kernel in kernels:
                     self.run(f'forest@{triangles:g}', kernel, repeat=repeat, scale=triangles,
                              triangles=triangles, rate=rate('forest', kernel, repeat),
                              exposure=None, report=report, bench=bench)
-        for scene in scenes if replays else ():
-            self.run(scene, RECORDER, RECORD, threads=1, bench=bench)
-            for kernel in kernels:
-                self.run(scene, kernel, REPLAY, answers=answers.get(kernel), bench=bench,
-                         rate=2 * rate(scene, kernel, 1))
 
     def measured(self) -> Measured:
         return Measured(read_results(self.folder))

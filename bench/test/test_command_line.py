@@ -73,8 +73,9 @@ def test_dry_run_prints_commands_that_a_shell_understands(bench: Bench, call: Ca
     commands = [shlex.split(line) for line in result.stdout.splitlines()]
     assert all(words[:2] == [str(bench.build / 'bwfirt-simple-bvh'), str(odd)]
                for words in commands)
-    assert ['--record' in words for words in commands] == [False, False, True, False]
-    assert ['--replay' in words for words in commands] == [False, False, False, True]
+    assert ['--record' in words for words in commands] == [False, True] + 5 * [False]
+    assert ['--replay' in words for words in commands] == [
+        False, False, True, True, False, True, True]
     rendering = ' '.join(commands[0])
     for option in ['--threads 3', '--passes 7', '--size 12x34', '--kernel-option a=1',
                    '--kernel-option b=$x', f"--camera {odd.with_suffix('.camera')}"]:
@@ -86,6 +87,33 @@ def test_dry_run_prints_commands_that_a_shell_understands(bench: Bench, call: Ca
     ('a:x=1,b', ['a:x=1', 'b']), ('a:x=1,y=2,b:z=3,c', ['a:x=1,y=2', 'b:z=3', 'c'])])
 def test_names_of_kernels_are_apart_at_commas(text: str, names: list[str]) -> None:
     assert bench_py.kernel_names(text) == names
+
+
+def test_standard_kernels_that_are_not_built_are_left_out(bench: Bench, call: Call,
+                                                          monkeypatch: pytest.MonkeyPatch) -> None:
+    """Here the embree modes and wide-bvh."""
+    def kernels(*arguments: str) -> list[str]:
+        monkeypatch.setattr('sys.argv', ['bench.py', '--build', str(bench.build), '--scenes',
+                                         str(bench.scenes), *arguments])
+        plan = bench_py.plan_of(bench_py.parse_arguments(), bench.results)
+        return [kernel.name for kernel in plan.kernels]
+    assert kernels() == ['simple-bvh', 'funky-kd', 'other']
+    assert kernels('--quick') == ['simple-bvh', 'funky-kd']
+    with pytest.raises(bench_py.UsageError):
+        kernels('--kernels', 'embree')
+
+
+def test_the_peers_are_measured() -> None:
+    assert set(bench_py.PEERS) < set(bench_py.KERNELS)
+
+
+def test_replays_may_be_shorter(call: Call) -> None:
+    shorter = ['--replay-seconds', '0.2']
+    for arguments, seconds in [([], '1'), (['--quick'], '0.02'), (shorter, '0.2'),
+                               (['--quick', *shorter], '0.2')]:
+        commands = call('--dry-run', *arguments).stdout.splitlines()
+        given = {line.split('--replay-seconds ')[1] for line in commands if '--replay ' in line}
+        assert given == {seconds}
 
 
 def test_quick_takes_less_of_everything() -> None:
@@ -130,7 +158,7 @@ def test_a_scene_without_camera_is_wrong_usage(call: Call, tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize('option', ['--repeats', '--threads', '--passes', '--time-limit',
-                                    '--memory-limit', '--size'])
+                                    '--memory-limit', '--replay-seconds', '--size'])
 @pytest.mark.parametrize('value', ['0', '-1', 'many', '', 'nan', 'inf', '1x', '0x4'])
 def test_bad_numbers_are_wrong_usage(option: str, value: str, capsys: pytest.CaptureFixture[str],
                                      monkeypatch: pytest.MonkeyPatch) -> None:
@@ -193,11 +221,12 @@ def test_a_missing_module_is_named_with_its_package(bench: Bench, tmp_path: Path
 
 
 @pytest.mark.parametrize('program, package', [
-    ('pdflatex', 'texlive-latex-recommended and lmodern'), ('epstopdf', 'texlive-font-utils')])
+    ('pdflatex', 'texlive-latex-recommended and lmodern'), ('epstopdf', 'texlive-font-utils'),
+    ('gs', 'ghostscript')])
 def test_missing_latex_is_named_with_its_package(
         call: Call, tmp_path: Path, program: str, package: str,
         monkeypatch: pytest.MonkeyPatch) -> None:
-    for other in {'pdflatex', 'epstopdf'} - {program}:
+    for other in {'pdflatex', 'epstopdf', 'gs'} - {program}:
         (tmp_path / other).symlink_to(shutil.which(other) or '/missing')
     monkeypatch.setenv('PATH', str(tmp_path))
     message = complaint(call(), 1)

@@ -245,13 +245,37 @@ def test_a_failed_replay_is_a_row_and_costs_the_rank(wrong: Bench) -> None:
     assert 'shy' not in measured.best(RATE, 'box')
 
 
+def test_a_failed_replay_is_not_repeated(wrong: Bench) -> None:
+    """On one thread and on all it is tried once; what answers wrongly is measured to the end."""
+    replays = [line for line in wrong.invocations() if ' replay ' in line]
+    for kernel, times in [('shy', 1), ('liar', 3), ('tied', 3)]:
+        for threads in (1, 2):
+            assert replays.count(f'{kernel} replay box.scene {threads}') == times
+
+
+def test_a_kernel_that_fails_on_one_thread_only_has_no_rank(tmp_path: Path) -> None:
+    bench = Bench(tmp_path)
+    bench.kernel('simple-bvh')
+    bench.kernel('odd', 'if KIND == "replay" and given("--threads") == "1":\n    os.abort()',
+                 rate=40)
+    measured = bench.measure()
+    assert measured.spread(RATE_MIXED.alone(1), 'box', 'odd') is None
+    assert measured.median(RATE_MIXED, 'box', 'odd') == 100
+    assert measured.best(RATE_MIXED, 'box') == ['simple-bvh']
+    assert ('box', 'odd', 'replay: crashed', 'SIGABRT') in failures(measured)
+
+
 ODD_REPLAYS = {
     'no-answers': 'del report["replay"]["answers"]',
     'no-missed': 'del report["replay"]["answers"]["missed"]',
     'no-answers-in-flight': 'del report["replay"]["answers_in_flight"]',
     'no-questions': 'del report["replay"]["rays"]',
     'no-recorder': 'del report["replay"]["recorded_by"]',
-    'no-measurements': 'report["replay"]["measurements"]["mixed_per_second"] = []',
+    'no-rate': 'del report["replay"]["mixed_per_second"]',
+    'null-rate': 'report["replay"]["mixed_per_second"] = None',
+    'nan-rate': 'report["replay"]["mixed_per_second"] = float("nan")',
+    'no-build-time': 'del report["time"]["initialize_s"]',
+    'no-memory': 'del report["memory"]["kernel_final_bytes"]',
     'null-distance': 'report["replay"]["answers"]["max_relative_distance_error"] = None',
     'nan-ghosts': 'report["replay"]["answers_in_flight"]["ghost"] = float("nan")',
     'word-ghosts': 'report["replay"]["answers"]["ghost"] = "none"',

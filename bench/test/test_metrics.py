@@ -4,11 +4,12 @@
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from metrics import (BYTES_PER_TRIANGLE, FINAL, INITIALIZE, METRICS, PEAK, RATE, RATE_H, RATE_MIXED,
-                     RATE_V, SQUARED_ERROR, TOTAL, Measured, Spread, are_equal)
+from metrics import (BYTES_PER_TRIANGLE, FINAL, INITIALIZE, METRICS, PEAK, PEAK_PER_TRIANGLE, RATE,
+                     RATE_H, RATE_MIXED, RATE_V, SQUARED_ERROR, TOTAL, Measured, Spread, are_equal)
 from plan import CONTROL, RECORD, REPLAY
 from stored import Stored
 
@@ -47,15 +48,15 @@ def test_metrics_take_their_figures_from_the_reports(tmp_path: Path) -> None:
     report = {'time.initialize_s': 2.0, 'time.render_s': 8.0, 'time.total_s': 10.0,
               'rays.per_second': 12.5e6, 'memory.kernel_peak_bytes': 3_000_000,
               'memory.kernel_final_bytes': 500_000, 'triangles': 2000, 'squared_error': 0.25}
-    rates = {'intersect_per_second': [1e6, 3e6], 'visibility_per_second': [4e6],
-             'mixed_per_second': [2e6, 2.5e6, 9e6], 'mixed_in_flight_per_second': [7e6]}
+    rates = {'replay.intersect_per_second': 2e6, 'replay.visibility_per_second': 4e6,
+             'replay.mixed_per_second': 2.5e6, 'replay.mixed_in_flight_per_second': 7e6}
     stored.run('box', 'a', report=report)
-    stored.run('box', 'a', REPLAY, report={'replay.measurements': rates})
+    stored.run('box', 'a', REPLAY, report=rates)
     measured = stored.measured()
     values = {metric.key: measured.median(metric, 'box', 'a') for metric in METRICS}
     assert values == {'total': 10, 'initialize': 2, 'render': 8, 'rate': 12.5, 'h': 2, 'V': 4,
                       'mixed': 2.5, 'in_flight': 7, 'peak': 3, 'final': 0.5,
-                      'bytes_per_triangle': 250, 'squared_error': 0.25}
+                      'peak_per_triangle': 1500, 'bytes_per_triangle': 250, 'squared_error': 0.25}
 
 
 def test_each_repeat_is_a_sample_and_no_other_run_is(tmp_path: Path) -> None:
@@ -164,6 +165,12 @@ def test_all_wrong_there_is_no_best(tmp_path: Path) -> None:
     assert stored.measured().best(RATE, 'box') == []
 
 
+@pytest.mark.parametrize('scenes', [1, 2, 3])
+def test_a_geometric_mean_is_within_its_range_in_spite_of_rounding(scenes: int) -> None:
+    for thousandths in range(1, 1000):
+        assert Spread(scenes * (thousandths / 1000,)).geometric_mean == thousandths / 1000
+
+
 # ---- Over scenes --------------------------------------------------------------------------------
 
 
@@ -193,6 +200,100 @@ def test_without_funky_kd_another_kernel_is_the_reference(tmp_path: Path) -> Non
     measured = measured_rates(tmp_path, {'a': {'x': [10], 'y': [40]}})
     assert measured.reference == 'x'
     assert measured.relative(RATE, 'y') == Spread((4,))
+
+
+# ---- Kernels alone ------------------------------------------------------------------------------
+
+
+def replayed(folder: Path, rates: Mapping[str, Sequence[float]], scene: str = 'box',
+             threads: int = 4, **run: Any) -> Stored:
+    """@param rates of h, million per second, by kernel, one of each repeat"""
+    stored = Stored(folder)
+    for kernel, samples in rates.items():
+        for repeat, rate in enumerate(samples, start=1):
+            stored.run(scene, kernel, REPLAY, repeat=repeat, rate=rate, threads=threads, **run)
+    return stored
+
+
+def test_a_replay_is_one_sample_whatever_it_measured_within(tmp_path: Path) -> None:
+    """Its own measurements depend on each other: the range is that of the repeats."""
+    stored = replayed(tmp_path, {'a': [10, 30, 11]}, report={
+        'replay.measurements.intersect_per_second': [1e6, 99e6]})
+    spread = stored.measured().spread(RATE_H, 'box', 'a')
+    assert spread and spread.samples == (10, 30, 11)
+
+
+def test_replays_on_one_thread_and_on_all(tmp_path: Path) -> None:
+    replayed(tmp_path / 'results', {'a': [40, 44, 36]})
+    stored = replayed(tmp_path / 'results', {'a': [20, 11, 12]}, threads=1,
+                      report={'time.initialize_s': 7, 'memory.kernel_peak_bytes': 5000})
+    stored.run('box', 'a', report={'time.initialize_s': 2})
+    measured = stored.measured()
+    assert measured.replay_threads == [1, 4]
+    for threads, h, build, peak in [(1, (20, 11, 12), 7, 5), (4, (40, 44, 36), 0.001, 200)]:
+        spread = measured.spread(RATE_H.alone(threads), 'box', 'a')
+        assert spread and spread.samples == h
+        assert measured.median(INITIALIZE.alone(threads), 'box', 'a') == pytest.approx(build)
+        assert measured.median(PEAK_PER_TRIANGLE.alone(threads), 'box', 'a') == peak
+    assert measured.median(RATE_H, 'box', 'a') == 40
+    assert measured.median(INITIALIZE, 'box', 'a') == 2
+    assert measured.spread(RATE_H.alone(2), 'box', 'a') is None
+
+
+def test_the_ratio_is_that_of_repeats_and_not_of_medians(tmp_path: Path) -> None:
+    """The machine slows down to a tenth within the second repeat, after the turn of funky-kd."""
+    measured = replayed(tmp_path, {'a': [200, 20, 20], 'funky-kd': [100, 100, 10]}).measured()
+    ratio = measured.ratio(RATE_H, 'box', 'a', 'funky-kd')
+    assert ratio and ratio.samples == pytest.approx((2, 0.2, 2))
+    assert measured.relative(RATE_H, 'a') == Spread((2,))
+    assert measured.median(RATE_H, 'box', 'a') / measured.median(RATE_H, 'box', 'funky-kd') == 0.2
+
+
+def test_a_ratio_is_of_repeats_that_both_have(tmp_path: Path) -> None:
+    measured = replayed(tmp_path, {'a': [3, 8, 10], 'b': [1, 2]}).measured()
+    assert measured.ratio(RATE_H, 'box', 'a', 'b') == Spread((3, 4))
+
+
+@pytest.mark.parametrize('run', [{'status': 'crashed'}, {'answers': {'missed': 1}}])
+@pytest.mark.parametrize('threads', [1, 4])
+def test_what_failed_or_answered_wrongly_once_has_no_ratio(tmp_path: Path, threads: int,
+                                                           run: dict[str, Any]) -> None:
+    stored = replayed(tmp_path, {'a': [3, 3, 3], 'b': [1, 1, 1]})
+    assert stored.measured().ratio(RATE_H, 'box', 'a', 'b') == Spread((3, 3, 3))
+    stored.run('box', 'b', REPLAY, repeat=4, threads=threads, **run)
+    assert stored.measured().ratio(RATE_H, 'box', 'a', 'b') is None
+    assert not stored.measured().is_right('box', 'b')
+
+
+def test_wrong_answers_are_those_of_the_worst_replay(tmp_path: Path) -> None:
+    stored = replayed(tmp_path, {'a': [1, 1, 1]})
+    assert stored.measured().wrong_per_million('box', 'a') == 0
+    stored.run('box', 'a', REPLAY, repeat=2, threads=1, answers={'missed': 7})
+    assert stored.measured().wrong_per_million('box', 'a') == 7
+
+
+def test_the_peer_is_the_fastest_on_the_scene(tmp_path: Path) -> None:
+    """On box the second of them, on hall the first; a liar is a peer, too, but has no ratio."""
+    for scene, fast, slow in [('box', 'two', 'one'), ('hall', 'one', 'two')]:
+        stored = replayed(tmp_path, {'a': [30], slow: [10], fast: [15], 'funky-kd': [1]}, scene)
+        stored.run(scene, 'liar', REPLAY, rate=99, answers={'ghost': 1})
+    results = stored.measured().results
+    measured = Measured(results, peers=['one', 'two', 'missing'])
+    assert [measured.leader(RATE_MIXED, scene, measured.peers) for scene in ['box', 'hall']] == [
+        'two', 'one']
+    assert [measured.by_peer(RATE_MIXED, scene, 'a') for scene in ['box', 'hall']] == [
+        Spread((2,)), Spread((2,))]
+    lying = Measured(results, peers=['one', 'two', 'liar'])
+    assert lying.by_peer(RATE_MIXED, 'box', 'a') == Spread((30 / 99,))
+    assert lying.by_peer(RATE_MIXED, 'box', 'liar') is None
+    assert Measured(results, peers=['missing']).by_peer(RATE_MIXED, 'box', 'a') == Spread((30,))
+    assert Measured(results).by_peer(RATE_MIXED, 'box', 'a') == Spread((30,))
+
+
+def test_scaling_is_that_of_repeats(tmp_path: Path) -> None:
+    replayed(tmp_path, {'a': [20, 40, 90]})
+    measured = replayed(tmp_path, {'a': [10, 20, 30]}, threads=1).measured()
+    assert measured.scaling(RATE_MIXED, 'box', 'a') == Spread((2, 2, 3))
 
 
 # ---- Break-even ---------------------------------------------------------------------------------
@@ -277,6 +378,6 @@ def test_order_does_not_depend_on_when_what_was_measured(tmp_path: Path) -> None
 
 
 def test_exact_figures_are_told_apart_by_any_difference() -> None:
-    assert {metric.key for metric in METRICS if metric.is_exact} == {
-        metric.key for metric in [PEAK, FINAL, BYTES_PER_TRIANGLE, SQUARED_ERROR]}
+    assert [metric for metric in METRICS if metric.is_exact] == [
+        PEAK, FINAL, PEAK_PER_TRIANGLE, BYTES_PER_TRIANGLE, SQUARED_ERROR]
     assert not INITIALIZE.is_exact

@@ -47,11 +47,35 @@ def test_a_repeat_of_all_scenes_is_done_before_the_next(bench: Bench) -> None:
         (repeat, scene) for repeat in (1, 2, 3) for scene in ['box', 'hall'] for _ in range(4)]
 
 
-def test_rays_are_recorded_before_they_are_replayed(bench: Bench) -> None:
-    runs = [(run.kind, run.scene.name, run.kernel.name) for run in
-            bench.plan(['simple-bvh', 'other']).runs() if run.kind in (RECORD, REPLAY)]
-    assert runs == [(kind, scene, kernel) for scene in ['box', 'hall'] for kind, kernel in [
-        (RECORD, 'simple-bvh'), (REPLAY, 'simple-bvh'), (REPLAY, 'other')]]
+@pytest.mark.parametrize('scene', ['box', 'hall'])
+@pytest.mark.parametrize('threads', [1, 2])
+def test_kernels_replay_in_turns_and_each_repeat_begins_with_another(
+        bench: Bench, scene: str, threads: int) -> None:
+    runs = [(run.repeat, run.kernel.name)
+            for run in bench.plan(['simple-bvh', 'funky-kd', 'other'], repeats=4).runs()
+            if (run.kind, run.scene.name, run.threads) == (REPLAY, scene, threads)]
+    assert runs == [(1, 'simple-bvh'), (1, 'funky-kd'), (1, 'other'),
+                    (2, 'funky-kd'), (2, 'other'), (2, 'simple-bvh'),
+                    (3, 'other'), (3, 'simple-bvh'), (3, 'funky-kd'),
+                    (4, 'simple-bvh'), (4, 'funky-kd'), (4, 'other')]
+
+
+@pytest.mark.parametrize('threads, counts', [(1, [1]), (6, [1, 6])])
+def test_kernels_replay_on_one_thread_and_on_all(bench: Bench, threads: int,
+                                                 counts: list[int]) -> None:
+    runs = [run for run in bench.plan(['other'], threads=threads, repeats=1).runs()
+            if run.kind == REPLAY]
+    assert [(run.scene.name, run.threads) for run in runs] == [
+        (scene, count) for scene in ['box', 'hall'] for count in counts]
+    assert {run.name for run in runs if run.scene.name == 'box'} == {
+        f'box/other/replay-{count}-threads-1' for count in counts}
+
+
+def test_rays_are_recorded_once_before_they_are_replayed(bench: Bench) -> None:
+    for scene in ['box', 'hall']:
+        kinds = [run.kind for run in bench.plan(['simple-bvh', 'other']).runs()
+                 if run.scene.name == scene and run.kind in (RECORD, REPLAY)]
+        assert kinds == [RECORD] + 3 * 4 * [REPLAY]
 
 
 @pytest.mark.parametrize('threads, counts', [(1, [1]), (2, [1, 2]), (6, [1, 2, 4, 6]),
@@ -73,17 +97,23 @@ def test_runs_are_made_in_that_order_after_one_warm_up_a_scene(bench: Bench) -> 
         'simple-bvh warm-up box.scene None',
         'simple-bvh render box.scene 2', 'funky-kd render box.scene 2',
         'funky-kd render box.scene 2',
+        'simple-bvh record box.scene 1',
+        'simple-bvh replay box.scene 1', 'funky-kd replay box.scene 1',
+        'simple-bvh replay box.scene 2', 'funky-kd replay box.scene 2',
         'simple-bvh warm-up hall.scene None',
         'simple-bvh render hall.scene 2', 'funky-kd render hall.scene 2',
         'funky-kd render hall.scene 2',
+        'simple-bvh record hall.scene 1',
+        'simple-bvh replay hall.scene 1', 'funky-kd replay hall.scene 1',
+        'simple-bvh replay hall.scene 2', 'funky-kd replay hall.scene 2',
         'funky-kd render box.scene 2', 'funky-kd render box.scene 2',
         'simple-bvh render box.scene 2',
+        'funky-kd replay box.scene 1', 'simple-bvh replay box.scene 1',
+        'funky-kd replay box.scene 2', 'simple-bvh replay box.scene 2',
         'funky-kd render hall.scene 2', 'funky-kd render hall.scene 2',
         'simple-bvh render hall.scene 2',
-        'simple-bvh record box.scene 1',
-        'simple-bvh replay box.scene 2', 'funky-kd replay box.scene 2',
-        'simple-bvh record hall.scene 1',
-        'simple-bvh replay hall.scene 2', 'funky-kd replay hall.scene 2']
+        'funky-kd replay hall.scene 1', 'simple-bvh replay hall.scene 1',
+        'funky-kd replay hall.scene 2', 'simple-bvh replay hall.scene 2']
 
 
 def test_no_two_kernels_run_at_a_time(tmp_path: Path) -> None:

@@ -11,10 +11,13 @@ from unittest import mock
 
 import pytest
 
+import figures
 from fakes import clean_environment, text_of
+from latex import fitting
 from plan import CONTROL, REPLAY
 from report import write_report
 from stored import Stored
+from tables import Cell, Table
 
 ODD_SCENE = '50%_a&b #1 {x} $y ~z^ <t>|u "q" \\s é ß'
 ODD_KERNEL = 'k:a=%_&#,b=${}~^<>|"\\ ü'
@@ -94,6 +97,26 @@ def environment(**variables: str) -> Iterator[None]:
         yield
 
 
+@pytest.mark.parametrize('columns, parts', [(1, [1]), (4, [4]), (5, [3, 2]), (8, [4, 4]),
+                                            (9, [3, 3, 3])])
+def test_wide_tables_are_split_into_parts_of_about_the_same_width(columns: int,
+                                                                  parts: list[int]) -> None:
+    """Besides the first column of 10 characters there is room for four columns of 25."""
+    names = [f'{letter:25}' for letter in 'abcdefghi'[:columns]]
+    whole = Table('wide', ['0123456789', *names], [[Cell(name) for name in ['kernel', *names]]])
+    tables = fitting(whole)
+    assert [table.columns[0] for table in tables] == len(parts) * ['0123456789']
+    assert [len(table.columns) - 1 for table in tables] == parts
+    assert [name for table in tables for name in table.columns[1:]] == names
+    assert [cell.text for table in tables for cell in table.rows[0][1:]] == names
+
+
+def test_every_standard_kernel_has_a_style_of_its_own() -> None:
+    counts = {len(styles) for styles in [figures.COLOURS, figures.HATCHES, figures.MARKERS,
+                                         figures.LINES]}
+    assert counts == {len(set(figures.COLOURS))} and min(counts) >= 10
+
+
 Reports = Callable[[Callable[[Stored], None]], Report]
 
 
@@ -156,7 +179,7 @@ def test_eight_kernels_on_three_scenes(reports: Reports) -> None:
                         '5 false occluded of 1000000', 'Thread scaling', 'Growth',
                         'Break-even', 'Warnings')
     rows = list(csv.DictReader(report.csv.splitlines()))
-    assert len(rows) == 3 * (3 * 9 + 2 * 8 + 3 * 8) + 3 * 9
+    assert len(rows) == 3 * (3 * 9 + 2 * 8 + 3 * 8) + 3 * (1 + 3 * 2 * 8)
 
 
 def test_a_wrong_kernel_is_not_shown_as_the_best(reports: Reports) -> None:

@@ -49,7 +49,7 @@ def test_the_same_results_make_the_same_bytes(written: dict[str, dict[str, bytes
 def test_the_date_is_that_of_the_last_run(written: dict[str, dict[str, bytes]],
                                           tmp_path: Path) -> None:
     (tmp_path / 'a.pdf').write_bytes(written['here']['.pdf'])
-    assert '2026-01-02 03:05 UTC' in text_of(tmp_path / 'a.pdf')
+    assert '2026-01-02 03:07 UTC' in text_of(tmp_path / 'a.pdf')
 
 
 def test_the_date_may_be_given(written: dict[str, dict[str, bytes]], tmp_path: Path) -> None:

@@ -68,7 +68,7 @@ def killed(tmp_path_factory: pytest.TempPathFactory) -> Bench:
         after = results(bench)
         assert after.items() >= before.items(), 'a result was lost or measured again'
         before = after
-    assert 0 < len(before) < 28, 'the kills did not hit the measuring'
+    assert 0 < len(before) < 44, 'the kills did not hit the measuring'
     bench.measure()
     assert results(bench).items() >= before.items()
     return bench
@@ -81,13 +81,13 @@ def test_after_kills_every_run_has_one_result(killed: Bench) -> None:
                 for kernel in ['simple-bvh', 'funky-kd']}
     expected |= {(scene, 'funky-kd', CONTROL): 3 for scene in ['box', 'hall']}
     expected |= {(scene, 'simple-bvh', RECORD): 1 for scene in ['box', 'hall']}
-    expected |= {(scene, kernel, REPLAY): 1 for scene in ['box', 'hall']
+    expected |= {(scene, kernel, REPLAY): 6 for scene in ['box', 'hall']
                  for kernel in ['simple-bvh', 'funky-kd']}
     assert counted == expected
 
 
 def test_a_kill_wastes_one_run_at_most(killed: Bench) -> None:
-    assert 24 <= len(killed.invocations()) <= 24 + KILLS
+    assert 44 <= len(killed.invocations()) <= 44 + KILLS
 
 
 def test_kills_leave_nothing_behind(killed: Bench) -> None:
@@ -175,7 +175,7 @@ def missing(bench: Bench, **plan: Any) -> Counter[tuple[str, str, str]]:
 def of(scene: str, kernel: str) -> Counter[tuple[str, str, str]]:
     """All that is made of a kernel on a scene, but for a recording."""
     control = {(scene, kernel, CONTROL): 2} if kernel == 'funky-kd' else {}
-    return Counter({(scene, kernel, RENDER): 2, (scene, kernel, REPLAY): 1, **control})
+    return Counter({(scene, kernel, RENDER): 2, (scene, kernel, REPLAY): 4, **control})
 
 
 BOX, HALL = ('box', 'hall')
@@ -184,6 +184,7 @@ EVERYTHING = of(BOX, 'simple-bvh') + of(BOX, 'funky-kd') + of(HALL, 'simple-bvh'
 RECORDS = Counter({(scene, 'simple-bvh', RECORD): 1 for scene in (BOX, HALL)})
 REPLAYS = Counter({key: n for key, n in EVERYTHING.items() if key[2] == REPLAY})
 RENDERINGS = EVERYTHING - REPLAYS
+ON_ONE_THREAD = Counter({key: n // 2 for key, n in REPLAYS.items()})
 
 
 def test_another_kernel_is_measured_alone(done: Bench) -> None:
@@ -199,7 +200,7 @@ def test_a_changed_kernel_is_measured_again_alone(done: Bench) -> None:
 def test_a_changed_recorder_means_new_replays(done: Bench) -> None:
     done.kernel('simple-bvh', '# changed')
     assert missing(done) == of(BOX, 'simple-bvh') + of(HALL, 'simple-bvh') + RECORDS + REPLAYS - \
-        Counter({(scene, 'simple-bvh', REPLAY): 1 for scene in (BOX, HALL)})
+        Counter({(scene, 'simple-bvh', REPLAY): 4 for scene in (BOX, HALL)})
 
 
 @pytest.mark.parametrize('ending', ['.scene', '.camera'])
@@ -230,7 +231,7 @@ def test_files_written_anew_with_the_same_content_change_nothing(done: Bench) ->
 @pytest.mark.parametrize('option, runs', [
     ({'passes': 8}, RENDERINGS),
     ({'size': '4x4'}, EVERYTHING + RECORDS),
-    ({'threads': 1}, EVERYTHING),
+    ({'threads': 1}, RENDERINGS + ON_ONE_THREAD),
     ({'replay_rays': 2000}, REPLAYS + RECORDS),
     ({'replay_seconds': 2}, REPLAYS),
     ({'time_limit': 5}, Counter()),
@@ -243,9 +244,10 @@ def test_another_option_means_new_runs_where_it_matters(
 def test_more_repeats_mean_the_additional_ones(done: Bench) -> None:
     runs = done.measurement(done.plan(repeats=4)).missing()
     assert {run.repeat for run in runs} == {3, 4}
-    assert Counter((run.scene.name, run.kernel.name, run.kind) for run in runs) == RENDERINGS
+    assert Counter((run.scene.name, run.kernel.name, run.kind) for run in runs) == EVERYTHING
     measured = done.measure(done.plan(repeats=4))
     assert len(measured.runs(BOX, 'funky-kd')) == 4
+    assert len(measured.replays(BOX, 'funky-kd')) == 8
 
 
 def test_half_of_a_measurement_with_new_options_is_not_mixed_with_old_runs(done: Bench) -> None:

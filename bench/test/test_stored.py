@@ -22,7 +22,8 @@ def test_a_benchmark_has_all_its_runs(tmp_path: Path) -> None:
     stored.benchmark(['box', 'hall'], scaling=['box'], growth=[1000, 10000])
     kinds = [result.kind for result in stored.measured().results]
     assert {kind: kinds.count(kind) for kind in kinds} == {
-        RENDER: 3 * (2 * 2 + 2 * 2 + 2 * 2), CONTROL: 3 * 2, RECORD: 2, REPLAY: 2 * 2}
+        RENDER: 3 * (2 * 2 + 2 * 2 + 2 * 2), CONTROL: 3 * 2, RECORD: 2,
+        REPLAY: 3 * 2 * 2 * 2}
 
 
 def test_keys_are_changed_and_removed() -> None:

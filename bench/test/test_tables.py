@@ -26,10 +26,9 @@ def texts(cells: list[Cell]) -> list[str]:
 
 
 def all_tables(measured: Measured) -> list[Table]:
-    of_scenes = [table(measured, scene) for table in tables.SCENE_TABLES
-                 for scene in measured.scenes]
-    return of_scenes + [table(measured) for table in
-                        [*tables.SUMMARY, *tables.OVERALL_TABLES, *tables.SYSTEM_TABLES]]
+    of_scenes = [table for scene in measured.scenes for table in tables.of_scene(measured, scene)]
+    return of_scenes + tables.summary(measured) + [
+        table(measured) for table in [*tables.OVERALL_TABLES, *tables.SYSTEM_TABLES]]
 
 
 @pytest.fixture(scope='module')
@@ -61,13 +60,14 @@ def test_the_best_is_marked_and_wrong_or_unchecked_ones_are_not(measured: Measur
 
 
 def test_no_speed_of_a_wrong_kernel_is_without_its_errors(measured: Measured) -> None:
-    rates = ['77', '96.', '154', '308', '192']  # gross, and the replayed ones
-    shown = [cell for table in all_tables(measured) for cells in table.rows
+    rates = ['77', '96.', '154', '308', '192', '231',  # gross, and the replayed ones
+             '38.5', '48.1', '57.8']                   # on one thread
+    shown = [(cells[0], cell) for table in all_tables(measured) for cells in table.rows
              for cell in cells[1:] if cell.value is not None
              and 'liar' in (cells[0].text, table.columns[cells.index(cell)])
              and any(cell.text.startswith(rate) for rate in rates)]
-    assert len(shown) >= 3
-    assert all(cell.error == '42 ppm wrong' for cell in shown)
+    assert len(shown) >= 9
+    assert all('42 ppm wrong' in (name.error, cell.error) for name, cell in shown)
 
 
 def test_a_wrong_kernel_has_no_means_and_no_break_even(measured: Measured) -> None:
@@ -131,6 +131,85 @@ def test_average_intensity_beside_its_reference(tmp_path: Path) -> None:
     assert texts(row(table, 'b'))[2:5] == ['\u2013'] * 3
 
 
+# ---- Kernels alone ------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope='module')
+def alone(tmp_path_factory: pytest.TempPathFactory) -> Measured:
+    """On a machine that drifts by a tenth from repeat to repeat; the peer answers wrongly on hall.
+
+    Rates on one thread are a quarter of those on four.
+    """
+    stored = Stored(tmp_path_factory.mktemp('results'))
+    speeds = {('box', 'fast'): 30, ('hall', 'fast'): 90, ('box', 'peer'): 20, ('hall', 'peer'): 30}
+    for scene, liar in [('box', {}), ('hall', {'missed': 3})]:
+        stored.benchmark([scene], ['funky-kd', 'fast', 'peer'], control=None,
+                         answers={'peer': liar}, rates=lambda scene, kernel, repeat:
+                         speeds.get((scene, kernel), 10) * (1 - repeat / 10))
+    return Measured(stored.measured().results, peers=['peer', 'missing'])
+
+
+@pytest.mark.parametrize('threads, title, mixed', [
+    (1, 'Kernels alone, one thread: ', '15 (13.1\u201316.9)'),
+    (4, 'Kernels alone, 4 threads: ', '60 (52.5\u201367.5)')])
+def test_rates_and_ratios_of_kernels_alone(alone: Measured, threads: int, title: str,
+                                           mixed: str) -> None:
+    table = tables.alone(alone, 'box', threads)
+    assert table.title.startswith(title) and table in tables.of_scene(alone, 'box')
+    by_name = dict(zip(table.columns, texts(row(table, 'fast'))))
+    assert by_name['build s'] == '0.001 (0.001\u20130.001)'
+    assert by_name['mixed'] == mixed
+    assert (by_name['peak B/tri.'], by_name['final B/tri.']) == ('200', '100')
+    assert texts(row(table, 'fast'))[8:] == 2 * ['1.50 (1.50\u20131.50)']
+    assert texts(row(table, 'peer'))[8:] == 2 * ['1.00 (1.00\u20131.00)']
+    assert texts(row(table, 'funky-kd'))[8:] == 2 * ['0.50 (0.50\u20130.50)']
+    assert [cells[0].text for cells in table.rows if cells[6].is_best] == ['fast']
+    assert 'the peer is peer (mixed), peer (in flight)' in table.note
+
+
+def test_a_peer_that_answers_wrongly_is_a_measure_but_has_no_ratio(alone: Measured) -> None:
+    table = tables.alone(alone, 'hall', 4)
+    assert [texts(cells)[8] for cells in table.rows] == [
+        '0.33 (0.33\u20130.33)', '3.00 (3.00\u20133.00)', '\u2013']
+    assert 'the peer is peer (mixed)' in table.note
+    assert [cells[0].error for cells in table.rows] == ['', '', '3 ppm wrong']
+    means = tables.by_peer(alone, 4)
+    assert texts(row(means, 'fast'))[1] == '2.12 (1.50 box\u20133.00 hall)'
+    assert texts(row(means, 'peer'))[1] == '1.00 [1] (1.00 box\u20131.00 box)'
+
+
+def test_means_of_ratios_name_the_scenes_of_the_least_and_the_greatest(alone: Measured) -> None:
+    """Relative to funky-kd: 3 on box, 9 on hall."""
+    measured = Measured(alone.results)
+    one, all_threads = (tables.by_peer(measured, threads) for threads in (1, 4))
+    assert texts(row(one, 'fast')) == ['fast', *2 * ['5.20 (3.00 box\u20139.00 hall)']]
+    assert texts(row(all_threads, 'fast')) == texts(row(one, 'fast'))
+    assert tables.summary(measured)[2:] == [one, all_threads]
+    assert [table.title.partition(':')[0] for table in [one, all_threads]] == [
+        'Kernels alone, one thread', 'Kernels alone, 4 threads']
+
+
+def test_scaling(alone: Measured) -> None:
+    assert [texts(cells) for cells in tables.scaling(alone).rows] == [
+        [scene, '4.00', '4.00', '4.00'] for scene in ['box', 'hall']]
+
+
+def test_without_replays_there_are_no_tables_of_kernels_alone(tmp_path: Path) -> None:
+    stored = Stored(tmp_path)
+    stored.benchmark(replays=False)
+    assert not [table for table in all_tables(stored.measured())
+                if 'alone' in table.title and table.rows]
+
+
+def test_one_thread_is_not_shown_twice(tmp_path: Path) -> None:
+    stored = Stored(tmp_path)
+    for repeat in (1, 2):
+        stored.run('box', 'a', REPLAY, repeat=repeat, threads=1, all_threads=1)
+    titles = [table.title for table in all_tables(stored.measured())
+              if 'alone' in table.title and table.rows]
+    assert [title.partition(':')[0] for title in titles] == 2 * ['Kernels alone, one thread']
+
+
 # ---- CSV ----------------------------------------------------------------------------------------
 
 
@@ -142,6 +221,14 @@ def test_csv_has_a_row_for_each_run(measured: Measured) -> None:
     rates = {(r['kernel'], r['kind'], r['repeat']): r['rate [Mrays/s]'] for r in rows}
     assert float(rates['funky-kd', 'render', '2']) == pytest.approx(10.1)
     assert rates['broken', 'render', '1'] == ''
+    replays = {(r['kernel'], r['threads'], r['repeat']): r for r in rows if r['kind'] == 'replay'}
+    assert len(replays) == 3 * 2 * 3 + 2
+    for threads, rate in [('1', 6.25), ('4', 25)]:
+        of_one = replays['funky-kd', threads, '1']
+        assert float(of_one['mixed [Mrays/s]']) == pytest.approx(rate)
+        assert float(of_one['initialize [s]']) == pytest.approx(0.001)
+        assert float(of_one['peak_per_triangle [bytes]']) == 200
+        assert of_one['rate [Mrays/s]'] == of_one['total [s]'] == ''
     assert {r['wrong_per_million'] for r in rows if r['kernel'] == 'liar'} == {'42.0'}
     assert {r['message'] for r in rows if r['kernel'] == 'broken'} == {'SIGSEGV'}
 
