@@ -16,8 +16,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-PYTHON_TESTS = [HERE / 'program', HERE.parents[1] / 'scenes' / 'test',
-                HERE.parents[1] / 'bench' / 'test']
+PYTHON_TESTS = [HERE.parents[1] / 'bench' / 'test', HERE / 'program',
+                HERE.parents[1] / 'scenes' / 'test']  # those that take longest begin first
 
 
 def python_tests(pattern: str) -> list[Path]:
@@ -85,9 +85,9 @@ def main() -> int:
     with (tempfile.TemporaryDirectory() as scratch,
           ThreadPoolExecutor(os.cpu_count() + 1) as side_by_side):
         folder = Path(scratch)
-        running = [side_by_side.submit(run_program, program, folder)
-                   for program in arguments.programs]
-        running += [side_by_side.submit(run_pytest, file, folder) for file in files]
+        running = [side_by_side.submit(run_pytest, file, folder) for file in files]
+        running += [side_by_side.submit(run_program, program, folder)
+                    for program in arguments.programs]
         results = [test.result() for test in running]
     passed, failed, skipped = (sum(column) for column in zip(*results))
     if skipped:
