@@ -2,8 +2,8 @@
 """Two sets of results side by side."""
 
 from doubts import percent
-from figures import short
 from metrics import METRICS, RATE, Measured, Metric, are_equal
+from texts import short
 
 EXTENT = ['size', 'passes', 'threads', 'replay_rays', 'replay_seconds', 'cpu', 'affinity']
 

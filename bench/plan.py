@@ -206,6 +206,7 @@ class Plan:
         if self.recorder:
             if repeat == 1:
                 yield Run(RECORD, scene, self.recorder, 1)
-            for threads in sorted({self.threads, *([1] if self.extent.replays_on_one_thread else [])}):
+            counts = {self.threads, 1} if self.extent.replays_on_one_thread else {self.threads}
+            for threads in sorted(counts):
                 yield from in_turn([Run(REPLAY, scene, kernel, threads, repeat)
                                     for kernel in self.kernels])

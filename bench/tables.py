@@ -6,11 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from doubts import failures, percent
-from figures import ppm_wrong, short, si
 from metrics import (ALONE, ANSWERS, BYTES_PER_TRIANGLE, FINAL, INITIALIZE, OVERALL, PEAK,
                      PEAK_PER_TRIANGLE, RATE, RATE_H, RATE_IN_FLIGHT, RATE_MIXED, RATE_V, RENDERING,
                      TOTAL, Measured, Metric, Report, Spread)
 from plan import CONTROL, RECORD
+from texts import ppm_wrong, short, si
 
 
 @dataclass(frozen=True)

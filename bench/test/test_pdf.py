@@ -11,7 +11,7 @@ from unittest import mock
 
 import pytest
 
-import figures
+import style
 from fakes import clean_environment, text_of
 from latex import fitting
 from plan import CONTROL, REPLAY
@@ -112,9 +112,9 @@ def test_wide_tables_are_split_into_parts_of_about_the_same_width(columns: int,
 
 
 def test_every_standard_kernel_has_a_style_of_its_own() -> None:
-    counts = {len(styles) for styles in [figures.COLOURS, figures.HATCHES, figures.MARKERS,
-                                         figures.LINES]}
-    assert counts == {len(set(figures.COLOURS))} and min(counts) >= 10
+    counts = {len(styles) for styles in [style.COLOURS, style.HATCHES, style.MARKERS,
+                                         style.LINES]}
+    assert counts == {len(set(style.COLOURS))} and min(counts) >= 10
 
 
 Reports = Callable[[Callable[[Stored], None]], Report]
