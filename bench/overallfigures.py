@@ -24,7 +24,7 @@ def geometric_means(measured: Measured) -> Figure | None:
     rows = math.ceil(len(shown) / 2)
     figure = Figure(figsize=(2 * WIDTH, 0.5 + (0.4 + row_height(measured) *
                                                len(measured.kernels)) * rows))
-    all_axes = figure.subplots(rows, 2, squeeze=False).flat
+    all_axes = list(figure.subplots(rows, 2, squeeze=False).flat)
     for axes, metric in zip(all_axes, shown):
         ratios = [(kernel, spread) for kernel in measured.kernels
                   if (spread := measured.relative(metric, kernel))]
@@ -42,7 +42,7 @@ def geometric_means(measured: Measured) -> Figure | None:
         axes.set_xlim(0, 1.2 * max(1, *(spread.highest for _, spread in ratios)))
         better = {'up': 'more is better', 'down': 'less is better'}[metric.better]
         axes.set_title(f'{metric.name} ({better})', loc='left', fontsize=8, style='italic', pad=2)
-    for axes in list(all_axes)[len(shown):]:
+    for axes in all_axes[len(shown):]:
         axes.set_axis_off()
     figure.suptitle(f'Geometric means over all scenes, relative to {measured.reference}, with the '
                     'scenes of the least and the greatest ratio', fontsize=9, fontweight='bold')

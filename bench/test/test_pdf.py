@@ -14,6 +14,7 @@ import pytest
 import style
 from fakes import clean_environment, text_of
 from latex import fitting
+from overallfigures import geometric_means
 from plan import CONTROL, REPLAY
 from report import write_report
 from stored import Stored
@@ -115,6 +116,14 @@ def test_every_standard_kernel_has_a_style_of_its_own() -> None:
     counts = {len(styles) for styles in [style.COLOURS, style.HATCHES, style.MARKERS,
                                          style.LINES]}
     assert counts == {len(set(style.COLOURS))} and min(counts) >= 10
+
+
+def test_graphs_that_do_not_fill_their_rows_leave_the_rest_empty(tmp_path: Path) -> None:
+    stored = Stored(tmp_path)
+    stored.benchmark()
+    figure = geometric_means(stored.measured())
+    assert figure
+    assert [axes.axison for axes in figure.axes] == 9 * [True] + [False]
 
 
 Reports = Callable[[Callable[[Stored], None]], Report]
