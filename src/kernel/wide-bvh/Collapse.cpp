@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
-#include <numeric>
 
 namespace bwfirt::wide {
 
@@ -149,13 +148,26 @@ void Collapse::split(std::uint32_t index, std::size_t most, Children& children) 
     split(node.first + 1, most - share, children);
 }
 
-void Collapse::measure() {
-    KernelVector<std::uint32_t> nodes{0};
+Collapse::Children Collapse::wideOf(const Children& children) const {
+    Children wide;
+    for (const std::uint32_t child : children)
+        if (!weights_[child].isLeaf)
+            wide.add(child);
+    return wide;
+}
+
+template <typename T, typename ChildrenOf>
+std::size_t Collapse::unfold(KernelVector<T>& nodes, const ChildrenOf& childrenOf) {
     std::size_t top = 0;
     for (; top < nodes.size() && nodes.size() < PARTS; ++top)
-        for (const std::uint32_t child : childrenOf(nodes[top]))
-            if (!weights_[child].isLeaf)
-                nodes.push_back(child);
+        for (const T& child : childrenOf(nodes[top]))
+            nodes.push_back(child);
+    return top;
+}
+
+void Collapse::measure() {
+    KernelVector<std::uint32_t> nodes{0};
+    std::size_t top = unfold(nodes, [&](std::uint32_t node) { return wideOf(childrenOf(node)); });
 #pragma omp parallel for schedule(dynamic)
     for (std::size_t i = top; i < nodes.size(); ++i)
         measureBelow(nodes[i]);
@@ -165,9 +177,8 @@ void Collapse::measure() {
 
 void Collapse::measureBelow(std::uint32_t index) {
     const Children children = childrenOf(index);
-    for (const std::uint32_t child : children)
-        if (!weights_[child].isLeaf)
-            measureBelow(child);
+    for (const std::uint32_t child : wideOf(children))
+        measureBelow(child);
     measure(index, children);
 }
 
@@ -180,10 +191,7 @@ void Collapse::measure(std::uint32_t index, const Children& children) {
 
 void Collapse::write(Line* lines) const {
     KernelVector<Part> parts{{0, 0}};
-    std::size_t top = 0;
-    for (; top < parts.size() && parts.size() < PARTS; ++top)
-        for (const Part& child : write(parts[top], lines))
-            parts.push_back(child);
+    const std::size_t top = unfold(parts, [&](const Part& part) { return write(part, lines); });
 #pragma omp parallel for schedule(dynamic)
     for (std::size_t i = top; i < parts.size(); ++i)
         writeBelow(parts[i], lines);

@@ -71,8 +71,15 @@ class Collapse {
 
     Children childrenOf(std::uint32_t node) const;
     void split(std::uint32_t node, std::size_t most, Children& children) const;
+    /// Those of a node's children that are nodes themselves.
+    Children wideOf(const Children& children) const;
     /// How many of `most` children are best given to the first child of a binary node.
     std::size_t shareOfFirst(const BinaryNode& node, std::size_t most) const;
+
+    /// Appends the children of one node after the other, until there is work for all threads.
+    /// @return how many nodes have theirs behind them; what is below the others is yet to be visited
+    template <typename T, typename ChildrenOf>
+    static std::size_t unfold(KernelVector<T>& nodes, const ChildrenOf& childrenOf);
 
     void measure();
     void measureBelow(std::uint32_t node);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "kernel/wide-bvh/LaneKeys.h"
+
 #include <immintrin.h>
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -67,9 +68,6 @@ inline Mask isNotLess(Floats a, Floats b) {
     return _mm512_cmp_ps_mask(a, b, _CMP_NLT_UQ);
 }
 
-/// A key has its lane in the lowest bits.
-constexpr std::int32_t LANE_BITS = 15;
-constexpr std::int32_t NO_KEY = 0x7fffffff;
 using Keys = Ints;
 
 inline Keys noKeys() {
@@ -89,12 +87,6 @@ inline Keys without(Keys keys, std::size_t lane) {
 }
 inline bool isAnyKeyLeft(Keys keys) {
     return _mm512_cmpneq_epi32_mask(keys, noKeys()) != 0;
-}
-inline std::size_t laneOf(std::int32_t key) {
-    return static_cast<std::size_t>(key & LANE_BITS);
-}
-inline bool isBeyond(std::int32_t key, float x) {
-    return key > std::bit_cast<std::int32_t>(x);
 }
 
 inline Mask topBits(const std::uint32_t* numbers) {

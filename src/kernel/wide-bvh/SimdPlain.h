@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "kernel/wide-bvh/LaneKeys.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -105,9 +107,6 @@ inline Mask isNotLess(const Floats& a, const Floats& b) {
     return maskOf([&](std::size_t i) { return !(a.lanes[i] < b.lanes[i]); });
 }
 
-/// A key has its lane in the lowest bits.
-constexpr std::int32_t LANE_BITS = 15;
-constexpr std::int32_t NO_KEY = 0x7fffffff;
 using Keys = Ints;
 
 inline Keys noKeys() {
@@ -128,12 +127,6 @@ inline Keys without(Keys keys, std::size_t lane) {
 }
 inline bool isAnyKeyLeft(const Keys& keys) {
     return least(keys) != NO_KEY;
-}
-inline std::size_t laneOf(std::int32_t key) {
-    return static_cast<std::size_t>(key & LANE_BITS);
-}
-inline bool isBeyond(std::int32_t key, float x) {
-    return key > std::bit_cast<std::int32_t>(x);
 }
 
 inline Mask topBits(const std::uint32_t* numbers) {
