@@ -41,10 +41,16 @@ def render(program: Path, folder: Path, *options: str | Path,
     return read_report(folder)
 
 
-def wait_for_file(folder: Path, pattern: str) -> None:
-    """Until a file of this name is there, written by a process that runs meanwhile."""
+def wait_for_file(folder: Path, pattern: str, least_bytes: int = 0) -> None:
+    """Until a file of this name and size is there, written by a process that runs meanwhile."""
+    def bytes_of(path: Path) -> int:
+        try:
+            return path.stat().st_size
+        except FileNotFoundError:  # it was there when the folder was listed
+            return -1
+
     end = time.monotonic() + TIMEOUT_S
-    while not list(folder.glob(pattern)):
+    while all(bytes_of(path) < least_bytes for path in folder.glob(pattern)):
         assert time.monotonic() < end, f'{pattern} has not come'
         time.sleep(0.01)
 

@@ -76,9 +76,10 @@ def test_recording_ends_rendering_with_the_pass_in_which_it_has_enough_rays(
 def test_a_recording_that_is_ended_keeps_what_it_has(program: Path, folder: Path) -> None:
     command = batch_command(program, '--passes', '1000000', '--record', 'box.rays', '--rays',
                             '100000000')
+    # Rays are written some ten thousand at a time: once there are any, a pass has ended.
     with subprocess.Popen([str(word) for word in command], cwd=folder, stdout=subprocess.DEVNULL,
                           stderr=subprocess.DEVNULL) as process:
-        wait_for_file(folder, 'box.rays.*')
+        wait_for_file(folder, 'box.rays.*', least_bytes=HEADER.itemsize + RECORD.itemsize)
         process.send_signal(signal.SIGINT)
         assert process.wait(30) == 0
     assert read_report(folder)['rays']['intersect'] == read_stream(folder / 'box.rays')[0]['intersect']
