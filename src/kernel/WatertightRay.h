@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -33,7 +34,8 @@ struct TriangleEdges {
         const Number least = min(min(u, v), w), most = max(max(u, v), w);
         return ((least >= 0) | (most <= 0)) & (determinant != 0);
     }
-    Number z() const { return (u * az + v * bz + w * cz) / determinant; }
+    Number zTimesDeterminant() const { return u * az + v * bz + w * cz; }
+    Number z() const { return zTimesDeterminant() / determinant; }
 };
 
 /// The points origin + t * direction, t > 0, prepared for tests against triangles in double
@@ -72,7 +74,12 @@ class WatertightRay {
         });
         if (!edges.areMet())
             return std::nullopt;
-        const double t = edges.z() / directionZ_;
+        // That the triangle is behind the ray shows before the divisions have an end.
+        const double zTimesDeterminant = edges.zTimesDeterminant();
+        if (std::signbit(zTimesDeterminant) ^ std::signbit(edges.determinant) ^
+            std::signbit(directionZ_))
+            return std::nullopt;
+        const double t = zTimesDeterminant / edges.determinant / directionZ_;
         if (!(t > 0))
             return std::nullopt;
         return t;

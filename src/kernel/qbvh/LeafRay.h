@@ -63,15 +63,18 @@ class LeafRay {
         const Float8 v = x[0] * y[2] - y[0] * x[2];
         const Float8 w = x[1] * y[0] - y[1] * x[0];
         const Float8 least = lesser(lesser(u, v), w), most = greater(greater(u, v), w);
-        const float errorX = 2 * error[axisX], errorY = 2 * error[axisY];
-        const Float8 edgeError = multiplyAdd(
-            inEightLanes(errorX), largest(y),
-            multiplyAdd(inEightLanes(errorY), largest(x), inEightLanes(errorX * errorY)));
-        const Float8 first = lesser(lesser(t[0], t[1]), t[2]);
-        const Float8 last = greater(greater(t[0], t[1]), t[2]);
-        const float errorT = error[axisZ] + ROUNDING * tMax;
+        const Float8 errorX = inEightLanes(error[axisX]), errorY = inEightLanes(error[axisY]);
+        const auto [leastX, mostX] = extent(x);
+        const auto [leastY, mostY] = extent(y);
+        const auto [first, last] = extent(t);
+        // Of a triangle of few steps the edges' signs say nothing, wherever it is.
+        const Int8 isClose =
+            (leastX <= errorX) & (mostX >= -errorX) & (leastY <= errorY) & (mostY >= -errorY);
+        const Float8 edgeError = 2 * multiplyAdd(errorX, greater(mostY, -leastY) + errorY,
+                                                 errorY * greater(mostX, -leastX));
+        const float errorT = error[axisZ] + ROUNDING * static_cast<float>(TreeRay::BEYOND);
         const Int8 isThere = Int8{0, 1, 2, 3, 4, 5, 6, 7} < static_cast<std::int32_t>(leaf.count());
-        const Int8 possible = isThere & ((least >= -edgeError) | (most <= edgeError)) &
+        const Int8 possible = isThere & isClose & ((least >= -edgeError) | (most <= edgeError)) &
                               (last >= -errorT) & (first <= tMax + errorT);
         const Int8 certain = possible & ((least > edgeError) | (most < -edgeError)) &
                              (first > errorT) & (last < tMax - errorT);
@@ -83,8 +86,11 @@ class LeafRay {
     static constexpr float HALF_STEP = 0.502F;
     static constexpr float ROUNDING = 0x1p-19F;
 
-    [[gnu::always_inline]] static Float8 largest(const std::array<Float8, 3>& a) {
-        return greater(greater(absolute(a[0]), absolute(a[1])), absolute(a[2]));
+    struct Extent {
+        Float8 least, most;
+    };
+    [[gnu::always_inline]] static Extent extent(const std::array<Float8, 3>& a) {
+        return {lesser(lesser(a[0], a[1]), a[2]), greater(greater(a[0], a[1]), a[2])};
     }
 
     Float4 origin_, shear_;

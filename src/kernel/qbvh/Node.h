@@ -5,6 +5,7 @@
 #include "kernel/qbvh/Vectors.h"
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -58,6 +59,7 @@ struct alignas(16) Node {
         children[child] = address.bits();
         leavesAndExponents |= 1U << child;
     }
+    Int4 allChildren() const { return std::bit_cast<Int4>(children); }
     unsigned leaves() const { return leavesAndExponents & ((1U << WIDTH) - 1); }
     bool isLeaf(std::size_t child) const { return (leaves() >> child & 1) != 0; }
     LeafAddress leaf(std::size_t child) const { return LeafAddress(children[child]); }

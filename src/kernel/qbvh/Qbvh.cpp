@@ -96,33 +96,40 @@ class Qbvh : public RTKernel {
             return true;
         const BoxRay boxRay(treeRay);
         const LeafRay leafRay(treeRay);
+        const WatertightRay exactRay(origin, direction);
         const float tMax = treeRay.distance(1);
 
+        // Children of nodes, by their number among all children of all nodes.
+        std::array<std::uint32_t, Node::WIDTH*(NODES_AT_A_TIME + 1)> leaves;
         std::array<std::uint32_t, STACK_SIZE * NODES_AT_A_TIME> nodes;
-        std::array<Entry, Node::WIDTH * NODES_AT_A_TIME> leaves;
-        std::size_t nodeCount = 0, leafCount = 0;
-        const auto push = [&](const Node& node, unsigned children) {
-            storeChosen(&nodes[nodeCount], children & ~node.leaves(), node.children);
-            nodeCount += static_cast<std::size_t>(std::popcount(children & ~node.leaves()));
-            for (unsigned rest = children & node.leaves(); rest != 0; rest &= rest - 1)
-                leaves[leafCount++] = {&node, static_cast<std::uint32_t>(std::countr_zero(rest)),
-                                       0};
+        std::size_t leafCount = 0, nodeCount = 0;
+        const auto push = [&](std::uint32_t index, unsigned children) {
+            const Node& node = tree_.nodes[index];
+            const unsigned inner = children & ~node.leaves();
+            storeChosen(&nodes[nodeCount], inner, node.allChildren());
+            nodeCount += static_cast<std::size_t>(std::popcount(inner));
+            const unsigned outer = children & node.leaves();
+            storeChosen(&leaves[leafCount], outer,
+                        static_cast<std::int32_t>(index * Node::WIDTH) + Int4{0, 1, 2, 3});
+            leafCount += static_cast<std::size_t>(std::popcount(outer));
         };
         nodes[nodeCount++] = 0;
         while (nodeCount > 0) {
-            const Node& one = tree_.nodes[nodes[--nodeCount]];
+            const std::uint32_t one = nodes[--nodeCount];
             const bool areTwo = nodeCount > 0;
-            const Node& two = areTwo ? tree_.nodes[nodes[--nodeCount]] : one;
-            const unsigned ofOne = boxRay.meet(one, tMax).children;
-            const unsigned ofTwo = areTwo ? boxRay.meet(two, tMax).children : 0;
+            const std::uint32_t two = areTwo ? nodes[--nodeCount] : one;
+            const unsigned ofOne = boxRay.meet(tree_.nodes[one], tMax).children;
+            const unsigned ofTwo = areTwo ? boxRay.meet(tree_.nodes[two], tMax).children : 0;
             push(two, ofTwo);
             push(one, ofOne);
             while (leafCount > 0) {
-                const auto& [node, child, enter] = leaves[--leafCount];
-                const Leaf leaf(tree_.leaves.get(), node->leaf(child));
-                const LeafRay::Meeting meeting = leafRay.meet(LeafGrid(*node, child), leaf, tMax);
+                const std::uint32_t number = leaves[--leafCount];
+                const Node& node = tree_.nodes[number / Node::WIDTH];
+                const std::size_t child = number % Node::WIDTH;
+                const Leaf leaf(tree_.leaves.get(), node.leaf(child));
+                const LeafRay::Meeting meeting = leafRay.meet(LeafGrid(node, child), leaf, tMax);
                 if (meeting.certain != 0 ||
-                    (meeting.possible != 0 && isBlocked(origin, direction, leaf, meeting.possible)))
+                    (meeting.possible != 0 && isBlocked(exactRay, leaf, meeting.possible)))
                     return false;
             }
         }
@@ -187,9 +194,8 @@ class Qbvh : public RTKernel {
     static constexpr std::int32_t NO_KEY = std::numeric_limits<std::int32_t>::max();
 
     /// Of triangles that the segment may meet.
-    [[gnu::noinline]] bool isBlocked(const V3d& origin, const V3d& direction, const Leaf& leaf,
+    [[gnu::noinline]] bool isBlocked(const WatertightRay& ray, const Leaf& leaf,
                                      unsigned possible) const {
-        const WatertightRay ray(origin, direction);
         for (; possible != 0; possible &= possible - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(possible));
             const std::optional<double> t = ray.intersect(triangles_[leaf.triangle(i)]);

@@ -33,12 +33,16 @@ struct TreeRay {
             moveForward();
     }
 
+    /// From the origin, and no farther than to beyond the scene.
     float distance(double t) const {
-        return static_cast<float>(std::min(t * tScale - moved, 0x1p100));
+        return static_cast<float>(std::min(t * tScale - moved, BEYOND));
     }
 
     /// Where rays in the tree start.
     static constexpr double NEAR = 2;
+
+    /// More than any distance from there to a point of the scene.
+    static constexpr double BEYOND = 4;
 
   private:
     static constexpr double FARTHEST = 0x1p14;

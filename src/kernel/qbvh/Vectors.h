@@ -37,9 +37,6 @@ template <typename Vector>
 [[gnu::always_inline]] inline Float4 absolute(const Float4& a) {
     return std::bit_cast<Float4>(std::bit_cast<Int4>(a) & std::numeric_limits<std::int32_t>::max());
 }
-[[gnu::always_inline]] inline Float8 absolute(const Float8& a) {
-    return std::bit_cast<Float8>(std::bit_cast<Int8>(a) & std::numeric_limits<std::int32_t>::max());
-}
 
 /// a * b + c, in one step where the processor has that.
 [[gnu::always_inline]] inline Float4 multiplyAdd(const Float4& a, const Float4& b,
@@ -120,17 +117,28 @@ template <int LANE>
 #endif
 }
 
+/// For each choice of four numbers, the bytes of those chosen one behind the other.
+constexpr auto BYTES_OF_CHOSEN = [] {
+    std::array<std::array<std::uint8_t, 16>, 16> table{};
+    for (std::size_t bits = 0; bits < table.size(); ++bits)
+        for (std::size_t lane = 0, byte = 0; lane < 4; ++lane)
+            for (std::size_t i = 0; i < 4 && (bits >> lane & 1) != 0; ++i)
+                table[bits][byte++] = static_cast<std::uint8_t>(4 * lane + i);
+    return table;
+}();
+
 /// Writes those of four numbers that the bits choose one behind the other; behind them may stand
 /// anything, up to four numbers in all.
 [[gnu::always_inline]] inline void storeChosen(std::uint32_t* target, unsigned bits,
-                                               const std::array<std::uint32_t, 4>& numbers) {
-#ifdef __AVX512VL__
-    const __m128i all = _mm_loadu_si128(reinterpret_cast<const __m128i*>(numbers.data()));
+                                               const Int4& numbers) {
+#ifdef __SSE4_1__
+    const __m128i bytes =
+        _mm_loadu_si128(reinterpret_cast<const __m128i*>(BYTES_OF_CHOSEN[bits].data()));
     _mm_storeu_si128(reinterpret_cast<__m128i*>(target),
-                     _mm_maskz_compress_epi32(static_cast<__mmask8>(bits), all));
+                     _mm_shuffle_epi8(std::bit_cast<__m128i>(numbers), bytes));
 #else
     for (; bits != 0; bits &= bits - 1)
-        *target++ = numbers[static_cast<std::size_t>(std::countr_zero(bits))];
+        *target++ = static_cast<std::uint32_t>(numbers[std::countr_zero(bits)]);
 #endif
 }
 
