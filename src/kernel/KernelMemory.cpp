@@ -13,10 +13,6 @@
 #include <limits>
 #include <new>
 
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
-
 namespace bwfirt {
 
 namespace {
@@ -50,16 +46,6 @@ char* firstAligned(void* block, std::size_t alignment) {
     return static_cast<char*>(block) + (after / alignment * alignment - begin);
 }
 
-constexpr std::size_t HUGE_PAGE = std::size_t{2} << 20;
-
-/// Asks the system for huge pages, if it has any: an incoherent ray touches many pages, and looks
-/// each of them up in a table.
-void preferHugePages([[maybe_unused]] char* begin, [[maybe_unused]] std::size_t bytes) {
-#ifdef __linux__
-    static_cast<void>(madvise(begin, bytes / HUGE_PAGE * HUGE_PAGE, MADV_HUGEPAGE));
-#endif
-}
-
 }  // namespace
 
 std::size_t KernelMemory::bytesNow() {
@@ -84,14 +70,11 @@ void RTKernel::kernel_count(std::ptrdiff_t bytes) {
 
 void* RTKernel::kernel_malloc(std::size_t bytes, std::size_t alignment) {
     assert(std::has_single_bit(alignment));
-    const bool isLarge = bytes >= HUGE_PAGE;
-    alignment = std::max(alignment, isLarge ? HUGE_PAGE : alignof(Header));
+    alignment = std::max(alignment, alignof(Header));
     void* block = std::malloc(blockSize(bytes, alignment));
     if (block == nullptr)
         throw std::bad_alloc();
     char* pointer = firstAligned(block, alignment);
-    if (isLarge)
-        preferHugePages(pointer, bytes);
     headerOf(pointer) = {block, bytes, alignment};
     kernel_count(static_cast<std::ptrdiff_t>(bytes));
     return pointer;

@@ -105,8 +105,7 @@ class RTKernel {
     /// the report warns of kernels that do not. They may be called from many threads at once.
     ///
     /// kernel_malloc returns at least `bytes` bytes at an address that is a multiple of
-    /// `alignment`, a power of two. Large blocks are in huge pages, where the system has any.
-    /// @throws std::bad_alloc
+    /// `alignment`, a power of two. @throws std::bad_alloc
     static void* kernel_malloc(std::size_t bytes, std::size_t alignment = 16);
 
     /// Grows or shrinks what kernel_malloc returned, keeping its content and alignment; the

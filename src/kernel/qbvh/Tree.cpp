@@ -23,13 +23,13 @@ class Builder {
         if (count_ > LeafAddress::MOST_ADDRESSES)
             throw std::length_error("more triangles than a leaf can refer to");
         // Every node has an inner node and three leaves of one triangle at worst, see split().
-        tree_.nodes = makeKernelArray<Node>(count_ / 3 + 1);
+        tree_.nodes = makeKernelArrayInHugePages<Node>(count_ / 3 + 1);
 #pragma omp parallel
 #pragma omp single
         buildRoot();
         shrink(tree_.nodes, nodeCount_);
-        tree_.leaves =
-            makeKernelArray<std::uint8_t>(count_ * Leaf::BYTES_PER_TRIANGLE + Leaf::BYTES_BEHIND);
+        tree_.leaves = makeKernelArrayInHugePages<std::uint8_t>(count_ * Leaf::BYTES_PER_TRIANGLE +
+                                                                Leaf::BYTES_BEHIND);
         const std::uint32_t nodeCount = nodeCount_;
 #pragma omp parallel for
         for (std::uint32_t i = 0; i < nodeCount; ++i)

@@ -36,7 +36,7 @@ bool WideTree::build(std::span<const Triangle> triangles, const BinaryTreeSettin
     if (size >= Child::MOST_LINES)
         throw std::length_error("the tree has more nodes than it can number");
     reach_ = reachOf(binary.nodes[0].bounds);
-    lines_ = makeKernelArray<Line>(size + END_LINES);
+    lines_ = makeKernelArrayInHugePages<Line>(size + END_LINES);
     std::fill_n(lines_.get() + size, END_LINES, Line{});
     collapse.write(lines_.get());
     return true;
