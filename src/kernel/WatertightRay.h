@@ -53,8 +53,8 @@ class WatertightRay {
     WatertightRay(const V3d& origin, const V3d& direction)
         : origin_(origin), direction_(direction) {
         kz_ = longestAxis(V3d(std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)));
-        kx_ = (kz_ + 1) % 3;
-        ky_ = (kz_ + 2) % 3;
+        kx_ = kz_ == 2 ? 0 : kz_ + 1;
+        ky_ = kz_ == 0 ? 2 : kz_ - 1;
         shearX_ = direction[kx_] / direction[kz_];
         shearY_ = direction[ky_] / direction[kz_];
         originX_ = origin[kx_];

@@ -27,8 +27,8 @@ class LeafRay {
           untold_(ray.isFar ? ~0U : 0U) {
         const auto z = static_cast<std::size_t>(ray.axis);
         shear_[ray.axis] = 0;
-        x_ = (z + 1) % 3;
-        y_ = (z + 2) % 3;
+        x_ = z == 2 ? 0 : z + 1;
+        y_ = z == 0 ? 2 : z - 1;
         z_ = z;
     }
 
@@ -73,12 +73,12 @@ class LeafRay {
         const Float8 edgeError = 2 * multiplyAdd(errorX, greater(mostY, -leastY) + errorY,
                                                  errorY * greater(mostX, -leastX));
         const float errorT = error[axisZ] + ROUNDING * static_cast<float>(TreeRay::BEYOND);
-        const Int8 isThere = Int8{0, 1, 2, 3, 4, 5, 6, 7} < static_cast<std::int32_t>(leaf.count());
-        const Int8 possible = isThere & isClose & ((least >= -edgeError) | (most <= edgeError)) &
+        const Int8 possible = isClose & ((least >= -edgeError) | (most <= edgeError)) &
                               (last >= -errorT) & (first <= tMax + errorT);
         const Int8 certain = possible & ((least > edgeError) | (most < -edgeError)) &
                              (first > errorT) & (last < tMax - errorT);
-        return {bitsOf(possible) | (bitsOf(isThere) & untold_), bitsOf(certain) & ~untold_};
+        const unsigned areThere = (1U << leaf.count()) - 1;
+        return {(bitsOf(possible) | untold_) & areThere, bitsOf(certain) & ~untold_ & areThere};
     }
 
   private:
