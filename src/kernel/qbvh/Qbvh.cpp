@@ -101,7 +101,7 @@ class Qbvh : public RTKernel {
         const float tMax = treeRay.distance(1);
 
         // Children of nodes, by their number among all children of all nodes.
-        std::array<std::uint32_t, Node::WIDTH*(NODES_AT_A_TIME + 1)> leaves;
+        std::array<std::uint32_t, (NODES_AT_A_TIME + 1) * Node::WIDTH> leaves;
         std::array<std::uint32_t, STACK_SIZE * NODES_AT_A_TIME> nodes;
         std::size_t leafCount = 0, nodeCount = 0;
         const auto push = [&](std::uint32_t index, unsigned children) {
