@@ -3,8 +3,6 @@
 
 #include "kernel/RTKernel.h"
 
-#include <algorithm>
-
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
@@ -34,7 +32,7 @@ KernelArray<T> makeKernelArrayInHugePages(std::size_t size) {
     constexpr std::size_t HUGE_PAGE = std::size_t{2} << 20;
     const std::size_t bytes = size * sizeof(T);
     const bool isLarge = bytes >= HUGE_PAGE;
-    auto array = makeKernelArray<T>(size, isLarge ? std::max(HUGE_PAGE, alignof(T)) : alignof(T));
+    auto array = makeKernelArray<T>(size, isLarge ? HUGE_PAGE : alignof(T));
 #ifdef __linux__
     if (isLarge)
         madvise(array.get(), bytes / HUGE_PAGE * HUGE_PAGE, MADV_HUGEPAGE);

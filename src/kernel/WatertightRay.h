@@ -22,6 +22,14 @@ int longestAxis(const Vector& length) {
     return AXES[isAboveZ | isXAboveY];
 }
 
+/// The axes after and before one: x, y, z, and x again.
+constexpr int axisAfter(int axis) {
+    return axis == 2 ? 0 : axis + 1;
+}
+constexpr int axisBefore(int axis) {
+    return axis == 0 ? 2 : axis - 1;
+}
+
 /// One triangle, where Number is double, or four of them, where it is Doubles4, as a ray sees them.
 template <typename Number>
 struct TriangleEdges {
@@ -35,7 +43,6 @@ struct TriangleEdges {
         return ((least >= 0) | (most <= 0)) & (determinant != 0);
     }
     Number zTimesDeterminant() const { return u * az + v * bz + w * cz; }
-    Number z() const { return zTimesDeterminant() / determinant; }
 };
 
 /// The points origin + t * direction, t > 0, prepared for tests against triangles in double
@@ -53,8 +60,8 @@ class WatertightRay {
     WatertightRay(const V3d& origin, const V3d& direction)
         : origin_(origin), direction_(direction) {
         kz_ = longestAxis(V3d(std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)));
-        kx_ = kz_ == 2 ? 0 : kz_ + 1;
-        ky_ = kz_ == 0 ? 2 : kz_ - 1;
+        kx_ = axisAfter(kz_);
+        ky_ = axisBefore(kz_);
         shearX_ = direction[kx_] / direction[kz_];
         shearY_ = direction[ky_] / direction[kz_];
         originX_ = origin[kx_];
@@ -99,7 +106,7 @@ class WatertightRay {
         const auto areMet = edges.areMet();
         if (none_of(areMet))
             return std::nullopt;
-        const Doubles4 t = edges.z() / directionZ_;
+        const Doubles4 t = edges.zTimesDeterminant() / edges.determinant / directionZ_;
         const auto areInReach = areMet & (t > tMin) & (t < tMax);
         if (none_of(areInReach))
             return std::nullopt;

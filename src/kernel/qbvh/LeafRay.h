@@ -25,11 +25,10 @@ class LeafRay {
               ray.direction * std::copysign(1.0, ray.direction[ray.axis]), Float4)),
           sign_(ray.direction[ray.axis] < 0 ? -1.0F : 1.0F),
           untold_(ray.isFar ? ~0U : 0U) {
-        const auto z = static_cast<std::size_t>(ray.axis);
         shear_[ray.axis] = 0;
-        x_ = z == 2 ? 0 : z + 1;
-        y_ = z == 0 ? 2 : z - 1;
-        z_ = z;
+        x_ = static_cast<std::size_t>(axisAfter(ray.axis));
+        y_ = static_cast<std::size_t>(axisBefore(ray.axis));
+        z_ = static_cast<std::size_t>(ray.axis);
     }
 
     /// A bit for each triangle that the ray may meet with t in (0, tMax), and for each of those

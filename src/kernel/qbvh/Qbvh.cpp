@@ -7,7 +7,6 @@
 
 #include <array>
 #include <bit>
-#include <cmath>
 
 namespace bwfirt {
 
@@ -141,9 +140,7 @@ class Qbvh : public RTKernel {
     static constexpr std::size_t NODES_AT_A_TIME = 2;
 
     bool isAsked(const V3d& origin, const V3d& direction) const {
-        // Sums of numbers of single precision that are finite are finite in double precision.
-        const V3d sum = origin + direction;
-        return tree_.nodes && std::isfinite(sum.x + sum.y + sum.z) && direction != V3d(0);
+        return tree_.nodes && isFinite(origin) && isFinite(direction) && direction != V3d(0);
     }
 
     /// The largest bits of a distance at which a box may be entered.

@@ -77,7 +77,8 @@ class Collapse {
     std::size_t shareOfFirst(const BinaryNode& node, std::size_t most) const;
 
     /// Appends the children of one node after the other, until there is work for all threads.
-    /// @return how many nodes have theirs behind them; what is below the others is yet to be visited
+    /// @return how many nodes have theirs behind them; what is below the others is yet to be
+    /// visited
     template <typename T, typename ChildrenOf>
     static std::size_t unfold(KernelVector<T>& nodes, const ChildrenOf& childrenOf);
 

@@ -47,8 +47,8 @@ struct RayConstants {
             farPlane[i] = i + (isBackwards ? 0 : 3);
         }
         z = longestAxis(length);
-        x = z == 2 ? 0 : z + 1;
-        y = z == 0 ? 2 : z - 1;
+        x = axisAfter(z);
+        y = axisBefore(z);
         originX = origin[x];
         originY = origin[y];
         originZ = origin[z];
