@@ -12,6 +12,10 @@ inline Floats4 toFloats4(const V3f& v) {
     return Floats4([&](int i) { return i < 3 ? v[i] : 0.0F; });
 }
 
+inline V3f toV3f(const Floats4& v) {
+    return {v[0], v[1], v[2]};
+}
+
 /// An axis-aligned box in registers. The fourth lane is 0, or infinite where the box is empty.
 struct Bounds {
     Floats4 low = std::numeric_limits<float>::infinity();

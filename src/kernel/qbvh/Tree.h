@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "kernel/BinaryTree.h"
 #include "kernel/KernelArray.h"
 #include "kernel/qbvh/Node.h"
 
@@ -9,8 +10,7 @@ namespace bwfirt {
 /// A tree over triangles.
 struct Tree {
     /// Longest way from the root to a leaf.
-    static constexpr int MAX_SAH_DEPTH = 48;
-    static constexpr int MAX_DEPTH = MAX_SAH_DEPTH + 32;
+    static constexpr int MAX_DEPTH = binary::BinaryTree::MAX_DEPTH;
 
     KernelArray<Node> nodes;           ///< the root first; none for a scene without area
     KernelArray<std::uint8_t> leaves;  ///< see Leaf

@@ -8,24 +8,8 @@ namespace bwfirt::wide {
 bool LeafContent::collect(std::span<const Triangle> triangles, const BinaryTree& tree,
                           std::uint32_t node) {
     triangleCount_ = vertexCount_ = 0;
-    std::array<std::uint32_t, 2 * Leaf::MOST> toVisit;
-    std::size_t size = 0;
-    toVisit[size++] = node;
-    while (size > 0) {
-        const BinaryNode& next = tree.nodes[toVisit[--size]];
-        for (std::uint32_t i = 0; i < next.count; ++i) {
-            const std::uint32_t index = tree.references[next.first + i];
-            if (!add(triangles[index], index))
-                return false;
-        }
-        if (next.count > 0)
-            continue;
-        if (size + 2 > toVisit.size())
-            return false;
-        toVisit[size++] = next.first + 1;
-        toVisit[size++] = next.first;
-    }
-    return true;
+    const auto addNext = [&](std::uint32_t index) { return add(triangles[index], index); };
+    return tree.allBelow(node, addNext);
 }
 
 bool LeafContent::add(const Triangle& triangle, std::uint32_t index) {

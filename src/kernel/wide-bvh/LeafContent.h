@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "kernel/wide-bvh/BinaryTree.h"
+#include "kernel/BinaryTree.h"
 #include "kernel/wide-bvh/WideTree.h"
 
 namespace bwfirt::wide {
+
+using namespace binary;
 
 /// Triangles that are to become a leaf, and the vertices that they share.
 class LeafContent {

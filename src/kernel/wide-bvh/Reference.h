@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "kernel/wide-bvh/Box.h"
+#include "kernel/BinaryBox.h"
 
 #include <bit>
 
 namespace bwfirt::wide {
+
+using namespace binary;
 
 /// A plane perpendicular to an axis.
 struct Plane {

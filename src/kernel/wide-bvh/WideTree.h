@@ -2,7 +2,6 @@
 #pragma once
 
 #include "kernel/KernelArray.h"
-#include "kernel/wide-bvh/BinaryTree.h"
 #include "kernel/wide-bvh/Simd.h"
 
 #include <array>
@@ -119,7 +118,7 @@ class WideTree {
 
   private:
     /// False where reinsertion has made the binary tree too deep.
-    bool build(std::span<const Triangle> triangles, const BinaryTreeSettings& settings);
+    bool build(std::span<const Triangle> triangles, int reinsertions);
 
     KernelArray<Line> lines_;
     float reach_ = 0;

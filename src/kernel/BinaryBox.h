@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "kernel/wide-bvh/BinaryTree.h"
+#include "kernel/BinaryTree.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
-namespace bwfirt::wide {
+namespace bwfirt::binary {
 
 /// Vectors of the compiler, which become instructions of the processor where it has such. Points
 /// fill three lanes, and the fourth repeats x.
@@ -90,4 +90,4 @@ struct Box {
     }
 };
 
-}  // namespace bwfirt::wide
+}  // namespace bwfirt::binary

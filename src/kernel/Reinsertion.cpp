@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "kernel/wide-bvh/Reinsertion.h"
+#include "kernel/Reinsertion.h"
 
-#include "kernel/wide-bvh/Box.h"
+#include "kernel/BinaryBox.h"
 
 #include <algorithm>
 #include <array>
 #include <vector>
 
-namespace bwfirt::wide {
+namespace bwfirt::binary {
 
 namespace {
 
@@ -47,8 +47,6 @@ class Reinserter {
     }
 
   private:
-    /// Children of nodes with this share of the root's area are candidates.
-    static constexpr float MUCH_AREA = 2e-4f;
     /// Nodes that are looked at for the sake of one subtree; many only where boxes overlap much.
     static constexpr int MOST_VISITS = 512;
     static constexpr std::size_t STACK_SIZE = 2 * BinaryTree::MAX_DEPTH;
@@ -191,4 +189,4 @@ void reinsert(BinaryTree& tree, int passes) {
         Reinserter(tree).run(passes);
 }
 
-}  // namespace bwfirt::wide
+}  // namespace bwfirt::binary

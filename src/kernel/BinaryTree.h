@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-namespace bwfirt::wide {
+namespace bwfirt::binary {
 
 /// An axis-aligned box.
 struct Bounds {
@@ -63,17 +63,19 @@ struct BinaryTree {
     UnsetVector<BinaryNode> nodes;          ///< the root first; none for a scene without area
     UnsetVector<std::uint32_t> parents;     ///< of the nodes 2 i and 2 i + 1
     UnsetVector<std::uint32_t> references;  ///< indices of triangles
+
+    /// Whether test(triangle) is true for all references below a node; asks no further than to the
+    /// first for which it is not.
+    template <typename Test>
+    bool allBelow(std::uint32_t index, const Test& test) const {
+        const BinaryNode& node = nodes[index];
+        if (node.count == 0)
+            return allBelow(node.first, test) && allBelow(node.first + 1, test);
+        for (std::uint32_t i = 0; i < node.count; ++i)
+            if (!test(references[node.first + i]))
+                return false;
+        return true;
+    }
 };
 
-struct BinaryTreeSettings {
-    /// Bound on the number of references, per triangle.
-    double mostReferences = 1.3;
-    /// Passes that improve the tree by reinsertion.
-    int reinsertions = 3;
-};
-
-/// Builds the tree with all threads of OpenMP. The result does not depend on their number.
-BinaryTree buildBinaryTree(std::span<const Triangle> triangles,
-                           const BinaryTreeSettings& settings = {});
-
-}  // namespace bwfirt::wide
+}  // namespace bwfirt::binary

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "kernel/wide-bvh/BinaryTree.h"
+#include "kernel/wide-bvh/BinaryTreeBuilder.h"
 
 #include "kernel/wide-bvh/ObjectSplit.h"
 #include "kernel/wide-bvh/Partition.h"
-#include "kernel/wide-bvh/Reinsertion.h"
 #include "kernel/wide-bvh/SpatialSplit.h"
 
 #include <stdexcept>
@@ -226,10 +225,9 @@ void build(BinaryTree& tree, std::span<const Triangle> triangles, std::span<Refe
 
 }  // namespace
 
-BinaryTree buildBinaryTree(std::span<const Triangle> triangles,
-                           const BinaryTreeSettings& settings) {
+BinaryTree buildBinaryTree(std::span<const Triangle> triangles, double mostReferences) {
     const auto room = static_cast<std::size_t>(static_cast<double>(triangles.size()) *
-                                               std::max(settings.mostReferences, 1.0));
+                                               std::max(mostReferences, 1.0));
     if (room > std::numeric_limits<std::uint32_t>::max() / 2)
         throw std::length_error("more references to triangles than a tree can number");
     UnsetVector<Reference> references(room);
@@ -238,8 +236,6 @@ BinaryTree buildBinaryTree(std::span<const Triangle> triangles,
     tree.parents.resize(room);
     tree.references.resize(room);
     build(tree, triangles, references);
-    if (!tree.nodes.empty())
-        reinsert(tree, settings.reinsertions);
     return tree;
 }
 
