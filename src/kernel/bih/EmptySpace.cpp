@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "kernel/bih/EmptySpace.h"
 
+#include <array>
 #include <limits>
+#include <vector>
 
 namespace bwfirt {
 
@@ -9,34 +11,55 @@ namespace {
 
 class EmptySpace {
   public:
-    EmptySpace(const NodePairs& sources, std::size_t longLists, const Box* bounds,
-               NodePairs& targets)
-        : sources_(sources), longLists_(longLists), bounds_(bounds), targets_(targets) {}
+    /// A node to be copied.
+    struct Part {
+        const Node* source;
+        Node* target;
+        Box interval;  ///< what a ray knows of the bounds on its way down
+    };
 
-    /// @param interval what a ray knows of the bounds on its way down
-    void copy(const Node& source, Node* target, Box interval) {
-        if (source.isLeaf()) {
-            *target = source;
-            return;
-        }
-        target = cutOff(target, bounds_[source.children()], interval);
-        Box first = interval, second = interval;
-        first.high[static_cast<int>(source.axis())] = source.firstHigh();
-        second.low[static_cast<int>(source.axis())] = source.secondLow();
-        const Node* const from = sources_[source.children()].data();
-        const std::uint32_t place = targets_.take();
-        Node* const to = targets_[place].data();
-        *target = Node::inner(source.axis(), source.firstHigh(), source.secondLow(), place);
-        if (source.children() < longLists_) {
-#pragma omp task firstprivate(first)
-            copy(from[0], to, first);
-        } else {
-            copy(from[0], to, first);
-        }
-        copy(from[1], to + 1, second);
+    EmptySpace(const NodePairs& sources, const Box* bounds, NodePairs& targets)
+        : sources_(sources), bounds_(bounds), targets_(targets) {}
+
+    /// Copies nodes with long lists one after the other, and then side by side what is below them.
+    void copy(const Part& root, std::size_t longLists) {
+        const auto isLong = [=](const Part& part) {
+            return !part.source->isLeaf() && part.source->children() < longLists;
+        };
+        std::vector<Part> top{root};
+        for (std::size_t i = 0; i < top.size(); ++i)
+            if (isLong(top[i]))
+                for (const Part& child : copyInner(top[i]))
+                    top.push_back(child);
+#pragma omp parallel for schedule(dynamic)
+        for (const Part& part : top)
+            if (!isLong(part))
+                copy(part);
     }
 
   private:
+    void copy(const Part& part) {
+        if (part.source->isLeaf())
+            *part.target = *part.source;
+        else
+            for (const Part& child : copyInner(part))
+                copy(child);
+    }
+
+    /// @return what is to be copied below
+    std::array<Part, 2> copyInner(Part part) {
+        const Node& source = *part.source;
+        Node* const target = cutOff(part.target, bounds_[source.children()], part.interval);
+        Box first = part.interval, second = part.interval;
+        first.high[static_cast<int>(source.axis())] = source.firstHigh();
+        second.low[static_cast<int>(source.axis())] = source.secondLow();
+        const std::uint32_t place = targets_.take();
+        *target = Node::inner(source.axis(), source.firstHigh(), source.secondLow(), place);
+        const NodePair& from = sources_[source.children()];
+        NodePair& to = targets_[place];
+        return {Part{&from[0], &to[0], first}, Part{&from[1], &to[1], second}};
+    }
+
     /// A share of the interval that is worth a node of its own when it is empty.
     static constexpr float MUCH_EMPTY_SPACE = 0.2F;
 
@@ -70,7 +93,6 @@ class EmptySpace {
     }
 
     const NodePairs& sources_;
-    std::size_t longLists_;
     const Box* bounds_;
     NodePairs& targets_;
 };
@@ -79,11 +101,8 @@ class EmptySpace {
 
 Node cutOffEmptySpace(const Node& root, const Box& rootBounds, const NodePairs& source,
                       std::size_t longLists, const Box* bounds, NodePairs& target) {
-    EmptySpace emptySpace(source, longLists, bounds, target);
     Node result;
-#pragma omp parallel
-#pragma omp single
-    emptySpace.copy(root, &result, rootBounds);
+    EmptySpace(source, bounds, target).copy({&root, &result, rootBounds}, longLists);
     return result;
 }
 
