@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
+#include "kernel/RTKernel.h"
 #include "kernel/wide-bvh/NearestQuery.h"
 #include "kernel/wide-bvh/VisibilityQuery.h"
 
