@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/BinaryTree.h"
+#include "kernel/Simd4.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +11,7 @@
 
 namespace bwfirt::binary {
 
-/// Vectors of the compiler, which become instructions of the processor where it has such. Points
-/// fill three lanes, and the fourth repeats x.
-using Float4 = float __attribute__((vector_size(16)));
-using Int4 = std::int32_t __attribute__((vector_size(16)));
-
+/// Points fill three lanes, and the fourth repeats x.
 inline Float4 toFloat4(const V3f& v) {
     return Float4{v.x, v.y, v.z, v.x};
 }
@@ -26,14 +23,6 @@ inline Float4 loadFloat4(const V3f& v) {
 }
 inline V3f toV3f(const Float4& v) {
     return {v[0], v[1], v[2]};
-}
-
-/// A NaN in `next` is ignored.
-inline Float4 lesser(const Float4& next, const Float4& before) {
-    return next < before ? next : before;
-}
-inline Float4 greater(const Float4& next, const Float4& before) {
-    return next > before ? next : before;
 }
 
 inline constexpr float INFINITE = std::numeric_limits<float>::infinity();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "kernel/Simd4.h"
+
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -14,26 +16,12 @@
 
 // Numbers side by side, as g++ and clang know them, and what they do not know of the processor.
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wpsabi"  // on how calls pass them: all functions are inlined
-#endif
-
 namespace bwfirt {
 
-using Float4 = float __attribute__((vector_size(16)));
-using Int4 = std::int32_t __attribute__((vector_size(16)));
 using Double4 = double __attribute__((vector_size(32)));
 using Float8 = float __attribute__((vector_size(32)));
 using Int8 = std::int32_t __attribute__((vector_size(32)));
 
-template <typename Vector>
-[[gnu::always_inline]] inline Vector lesser(const Vector& a, const Vector& b) {
-    return a < b ? a : b;
-}
-template <typename Vector>
-[[gnu::always_inline]] inline Vector greater(const Vector& a, const Vector& b) {
-    return a > b ? a : b;
-}
 [[gnu::always_inline]] inline Float4 absolute(const Float4& a) {
     return std::bit_cast<Float4>(std::bit_cast<Int4>(a) & std::numeric_limits<std::int32_t>::max());
 }
