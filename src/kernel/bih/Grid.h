@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "kernel/Reference.h"
+#include "kernel/Box.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace bwfirt {

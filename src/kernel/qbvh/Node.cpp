@@ -7,19 +7,19 @@
 
 namespace bwfirt {
 
-void Node::setBoxes(std::span<const Bounds> boxes, double scale) {
+void Node::setBoxes(std::span<const Box> boxes, double scale) {
     constexpr float INFINITE = std::numeric_limits<float>::infinity();
     constexpr int HIGHEST_PLANE = 65535;
-    Bounds all;
-    for (const Bounds& box : boxes)
+    Box all;
+    for (const Box& box : boxes)
         all.extend(box);
     leavesAndExponents = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<std::size_t>(axis);
-        const auto low = [&](const Bounds& box) {
+        const auto low = [&](const Box& box) {
             return scale * static_cast<double>(box.low[axis]) - MARGIN;
         };
-        const auto high = [&](const Bounds& box) {
+        const auto high = [&](const Box& box) {
             return scale * static_cast<double>(box.high[axis]) + MARGIN;
         };
         origin[i] = std::nextafter(static_cast<float>(low(all)), -INFINITE);

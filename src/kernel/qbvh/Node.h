@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "kernel/qbvh/Bounds.h"
+#include "kernel/Box.h"
 #include "kernel/qbvh/Vectors.h"
 
 #include <array>
@@ -51,7 +51,7 @@ struct alignas(16) Node {
 
     /// Encloses the boxes of one to four children, multiplied by `scale`, none of which is a leaf
     /// yet. A box that is not there is one that no ray meets.
-    void setBoxes(std::span<const Bounds> boxes, double scale);
+    void setBoxes(std::span<const Box> boxes, double scale);
     bool hasBox(std::size_t child) const { return planes[0][child] <= planes[1][child]; }
 
     void setNode(std::size_t child, std::uint32_t index) { children[child] = index; }

@@ -41,7 +41,7 @@ Result forPieces(std::span<Reference> references, const Work& work) {
 
 /// The references whose centres lie in one slice of the group.
 struct Bin {
-    Bounds bounds;
+    Box bounds;
     std::size_t count = 0;
 
     void merge(const Bin& other) {
@@ -78,7 +78,7 @@ class Slices {
     bool isEmpty(int axis) const { return !(perLength_[axis] > 0); }
 
     using Ints4 = std::experimental::rebind_simd_t<int, Floats4>;
-    Ints4 of(const Bounds& box) const {
+    Ints4 of(const Box& box) const {
         const Floats4 position = (box.low + box.high - low_) * perLength_;
         const Floats4 last = static_cast<float>(count_ - 1);
         return std::experimental::static_simd_cast<Ints4>(min(max(position, Floats4(0)), last));
@@ -96,30 +96,30 @@ struct Plane {
 };
 
 /// How many leaves take so many triangles.
-float leaves(std::size_t count) {
+double leaves(std::size_t count) {
     constexpr std::size_t MOST = LeafAddress::MOST_TRIANGLES;
-    return static_cast<float>((count + MOST - 1) / MOST);
+    return static_cast<double>((count + MOST - 1) / MOST);
 }
 
 std::optional<Plane> cheapestPlane(const Bins& bins, const Slices& slices) {
     std::optional<Plane> cheapest;
-    float least = std::numeric_limits<float>::infinity();
+    double least = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
         if (slices.isEmpty(axis))
             continue;
         const auto& row = bins.bins[static_cast<std::size_t>(axis)];
-        std::array<float, MOST_BINS> costsAbove;
+        std::array<double, MOST_BINS> costsAbove;
         Bin above, below;
         for (std::size_t i = slices.count() - 1; i > 0; --i) {
             above.merge(row[i]);
-            costsAbove[i] = above.count == 0 ? std::numeric_limits<float>::infinity()
-                                             : halfArea(above.bounds) * leaves(above.count);
+            costsAbove[i] = above.count == 0 ? std::numeric_limits<double>::infinity()
+                                             : above.bounds.halfArea() * leaves(above.count);
         }
         for (std::size_t i = 1; i < slices.count(); ++i) {
             below.merge(row[i - 1]);
             if (below.count == 0)
                 continue;
-            const float cost = halfArea(below.bounds) * leaves(below.count) + costsAbove[i];
+            const double cost = below.bounds.halfArea() * leaves(below.count) + costsAbove[i];
             if (cost < least) {
                 least = cost;
                 cheapest = Plane{axis, static_cast<int>(i)};
@@ -131,7 +131,7 @@ std::optional<Plane> cheapestPlane(const Bins& bins, const Slices& slices) {
 
 /// Bounds of a group, without the group.
 struct GroupBounds {
-    Bounds bounds, centres;
+    Box bounds, centres;
 
     void merge(const GroupBounds& other) {
         bounds.extend(other.bounds);
@@ -157,7 +157,7 @@ std::optional<Parts> splitBySah(const Group& group) {
     const Bins bins =
         forPieces<Bins>(group.references, [&](std::span<Reference> piece, Bins& result) {
             for (const Reference& reference : piece) {
-                const Bounds box = reference.bounds();
+                const Box box = reference.box();
                 const auto slice = slices.of(box);
                 for (int axis = 0; axis < 3; ++axis) {
                     Bin& bin = result.bins[static_cast<std::size_t>(axis)]
@@ -172,7 +172,7 @@ std::optional<Parts> splitBySah(const Group& group) {
         return std::nullopt;
 
     const auto isInFirst = [&](const Reference& reference) {
-        return slices.of(reference.bounds())[plane->axis] < plane->firstOfSecond;
+        return slices.of(reference.box())[plane->axis] < plane->firstOfSecond;
     };
     Parts parts;
     auto left = group.references.begin(), right = group.references.end();

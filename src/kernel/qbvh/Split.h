@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "kernel/qbvh/Bounds.h"
+#include "kernel/Box.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -16,17 +16,17 @@ struct Reference {
     V3f high;
     std::uint32_t triangle;
 
-    Bounds bounds() const { return {toFloats4(low), toFloats4(high)}; }
+    Box box() const { return {toFloats4(low), toFloats4(high)}; }
 };
 
 /// References that stand side by side, and what has to be known to split them.
 struct Group {
     std::span<Reference> references;
-    Bounds bounds;
-    Bounds centres;  ///< of the centres of the boxes, times two
+    Box bounds;
+    Box centres;  ///< of the centres of the boxes, times two
 
     void extend(const Reference& reference) {
-        const Bounds box = reference.bounds();
+        const Box box = reference.box();
         bounds.extend(box);
         const Floats4 centre = box.low + box.high;
         centres.extend({centre, centre});

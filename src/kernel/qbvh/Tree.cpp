@@ -33,7 +33,7 @@ class BinaryTreeBuilder {
         tree_.nodes.resize(2 * leaves);
         tree_.parents.resize(leaves);
         const Group root = groupOf({references_.get(), count_});
-        rootArea_ = halfArea(root.bounds);
+        rootArea_ = root.bounds.halfArea();
 #pragma omp parallel
 #pragma omp single
         build({0, root, 1, leaves, 0});
@@ -124,7 +124,7 @@ class BinaryTreeBuilder {
         const Group& group = task.group;
         return group.size() == 1 ||
                (group.size() <= LeafAddress::MOST_TRIANGLES &&
-                (task.leaves == 1 || halfArea(group.bounds) < binary::MUCH_AREA * rootArea_));
+                (task.leaves == 1 || group.bounds.halfArea() < binary::MUCH_AREA * rootArea_));
     }
 
     /// How many leaves so many triangles take at least.
@@ -148,7 +148,7 @@ class BinaryTreeBuilder {
     std::span<const Triangle> triangles_;
     KernelArray<Reference> references_;
     std::size_t count_ = 0;
-    float rootArea_ = 0;
+    double rootArea_ = 0;
     BinaryTree tree_;
 };
 
@@ -211,13 +211,13 @@ class Builder {
             // way.
             const auto boxOf = [&](const auto& child) {
                 const binary::Bounds& bounds = binary.nodes[child.node].bounds;
-                return Bounds{toFloats4(bounds.low), toFloats4(bounds.high)};
+                return Box{toFloats4(bounds.low), toFloats4(bounds.high)};
             };
             std::stable_sort(children.begin(), children.end(), [&](const auto& a, const auto& b) {
-                return halfArea(boxOf(a)) < halfArea(boxOf(b));
+                return boxOf(a).halfArea() < boxOf(b).halfArea();
             });
             Node& node = tree_.nodes[begin.nodes];
-            std::array<Bounds, Node::WIDTH> boxes;
+            std::array<Box, Node::WIDTH> boxes;
             std::transform(children.begin(), children.end(), boxes.begin(), boxOf);
             node.setBoxes({boxes.data(), children.size()}, tree_.scale);
             for (std::size_t i = 0; i < Node::WIDTH; ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "kernel/Reference.h"
+#include "kernel/Box.h"
 #include "kernel/Triangle4.h"
 
 #include <array>
