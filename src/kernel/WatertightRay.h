@@ -13,21 +13,20 @@
 namespace bwfirt {
 
 /// The axis along which a vector without negative components is longest; z, or else y, if several.
-/// It cannot be predicted, and a table needs no branch.
-template <typename Vector>
-int longestAxis(const Vector& length) {
-    constexpr std::array<int, 4> AXES = {2, 2, 1, 0};
-    const std::size_t isXAboveY = length.x > length.y ? 1 : 0;
-    const std::size_t isAboveZ = std::max(length.x, length.y) > length.z ? 2 : 0;
-    return AXES[isAboveZ | isXAboveY];
+/// Which one it is cannot be predicted, and a product needs no branch.
+template <typename Number>
+int longestAxis(Number x, Number y, Number z) {
+    return 2 - (std::max(x, y) > z ? 1 : 0) * (x > y ? 2 : 1);
 }
 
-/// The axes after and before one: x, y, z, and x again.
+/// The axes after and before one: x, y, z, and x again. Tables, for the same reason.
 constexpr int axisAfter(int axis) {
-    return axis == 2 ? 0 : axis + 1;
+    constexpr std::array<int, 3> AFTER = {1, 2, 0};
+    return AFTER[static_cast<std::size_t>(axis)];
 }
 constexpr int axisBefore(int axis) {
-    return axis == 0 ? 2 : axis - 1;
+    constexpr std::array<int, 3> BEFORE = {2, 0, 1};
+    return BEFORE[static_cast<std::size_t>(axis)];
 }
 
 /// One triangle, where Number is double, or four of them, where it is Doubles4, as a ray sees them.
@@ -59,7 +58,7 @@ class WatertightRay {
   public:
     WatertightRay(const V3d& origin, const V3d& direction)
         : origin_(origin), direction_(direction) {
-        kz_ = longestAxis(V3d(std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)));
+        kz_ = longestAxis(std::abs(direction.x), std::abs(direction.y), std::abs(direction.z));
         kx_ = axisAfter(kz_);
         ky_ = axisBefore(kz_);
         shearX_ = direction[kx_] / direction[kz_];

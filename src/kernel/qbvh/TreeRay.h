@@ -23,7 +23,7 @@ struct TreeRay {
 
     TreeRay(const V3d& start, const V3d& along, double scale) {
         const V3d size(std::abs(along.x), std::abs(along.y), std::abs(along.z));
-        axis = longestAxis(size);
+        axis = longestAxis(size.x, size.y, size.z);
         tScale = scale * size[axis];
         const Double4 components{along.x, along.y, along.z, size[axis]};
         direction = components * (1 / size[axis]);

@@ -2,24 +2,48 @@
 #pragma once
 
 #include "kernel/WatertightRay.h"
+#include "kernel/wide-bvh/Simd.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 namespace bwfirt::wide {
+
+/// What the test of boxes needs of the points origin + t * direction along one axis: of a plane at
+/// x the ray is at t = x * inverse - offset. The offsets of planes where a box is entered are so
+/// much larger, of those where it is left so much smaller, that no rounding of single precision
+/// makes the ray miss a box that it meets.
+struct AxisConstants {
+    float inverse, nearOffset, farOffset;
+    std::uint32_t isBackwards;  ///< 1 where the direction is negative
+
+    /// @param longest what the direction is along the axis where it is longest, up to its sign
+    /// @param reach the largest coordinate of the scene, up to its sign
+    AxisConstants(float origin, float direction, float longest, float reach) {
+        // Less than this moves the ray by less than rounding does, and needs no infinity.
+        const float least = longest * 0x1p-60F;
+        inverse = 1 / std::copysign(std::max(std::abs(direction), least), direction);
+        // The product x * inverse is rounded once and inverse once, the offset thrice, each time by
+        // a share of |x * inverse| or |origin * inverse|; and so is the distance of a hit.
+        const float error = 6 * 0x1p-24F * std::abs(inverse) * (std::abs(origin) + reach);
+        nearOffset = origin * inverse + error;
+        farOffset = origin * inverse - error;
+        isBackwards = std::bit_cast<std::uint32_t>(direction) >> 31;
+    }
+};
 
 /// What the tests of boxes and triangles need of the points origin + t * direction.
 struct RayConstants {
     /// Unit roundoff of single precision.
     static constexpr float ROUNDING = 0x1p-24F;
 
-    /// Of a plane at x along an axis, the ray is at t = x * inverse - offset. The offsets of planes
-    /// where a box is entered are so much larger, of those where it is left so much smaller, that
-    /// no rounding of single precision makes the ray miss a box that it meets.
-    std::array<float, 3> inverse, nearOffset, farOffset;
-    std::array<std::size_t, 3> nearPlane, farPlane;  ///< which of a node's planes come first
+    std::array<float, 3> inverse, nearOffset, farOffset;  ///< see AxisConstants
+    /// Where a node's planes begin that are met first and last, in numbers from the first plane.
+    std::array<std::uint32_t, 3> nearPlane, farPlane;
 
     /// The axes, of which z is that along which the direction is longest, and the ray in them: see
     /// WatertightRay.
@@ -31,28 +55,35 @@ struct RayConstants {
     RayConstants(const V3f& origin, const V3f& direction, float reach) {
         const V3f length(std::abs(direction.x), std::abs(direction.y), std::abs(direction.z));
         const float longest = std::max({length.x, length.y, length.z});
-        for (int axis = 0; axis < 3; ++axis) {
-            // Less than this moves the ray by less than rounding does, and needs no infinity.
-            const float least = longest * 0x1p-60F;
-            const auto i = static_cast<std::size_t>(axis);
-            inverse[i] = 1 / std::copysign(std::max(length[axis], least), direction[axis]);
-            // The product x * inverse is rounded once and inverse once, the offset thrice, each
-            // time by a share of |x * inverse| or |origin * inverse|.
-            const float error =
-                6 * ROUNDING * std::abs(inverse[i]) * (std::abs(origin[axis]) + reach);
-            nearOffset[i] = origin[axis] * inverse[i] + error;
-            farOffset[i] = origin[axis] * inverse[i] - error;
-            const bool isBackwards = std::signbit(direction[axis]);
-            nearPlane[i] = i + (isBackwards ? 3 : 0);
-            farPlane[i] = i + (isBackwards ? 0 : 3);
-        }
-        z = longestAxis(length);
+        for (int axis = 0; axis < 3; ++axis)
+            setAxis(axis, AxisConstants(origin[axis], direction[axis], longest, reach));
+        setTriangleAxes(longestAxis(length.x, length.y, length.z), origin, direction,
+                        V3f(inverse[0], inverse[1], inverse[2]));
+    }
+
+    RayConstants() = default;
+
+    void setAxis(int axis, const AxisConstants& constants) {
+        constexpr auto PLANE = static_cast<std::uint32_t>(WIDTH);
+        const auto i = static_cast<std::size_t>(axis);
+        inverse[i] = constants.inverse;
+        nearOffset[i] = constants.nearOffset;
+        farOffset[i] = constants.farOffset;
+        nearPlane[i] = (static_cast<std::uint32_t>(axis) + 3 * constants.isBackwards) * PLANE;
+        farPlane[i] = (static_cast<std::uint32_t>(axis) + 3 - 3 * constants.isBackwards) * PLANE;
+    }
+
+    /// @param inverseByAxis that of AxisConstants, by axis
+    template <typename Vector>
+    void setTriangleAxes(int longest, const Vector& origin, const Vector& direction,
+                         const Vector& inverseByAxis) {
+        z = longest;
         x = axisAfter(z);
         y = axisBefore(z);
         originX = origin[x];
         originY = origin[y];
         originZ = origin[z];
-        inverseZ = inverse[static_cast<std::size_t>(z)];
+        inverseZ = inverseByAxis[z];
         shearX = direction[x] * inverseZ;
         shearY = direction[y] * inverseZ;
     }

@@ -5,10 +5,15 @@
 // `Mask` has a bit for each. One of three headers is compiled, as the build's `arch` has it; all of
 // them define the same:
 //
+//   WIDTH, INSTRUCTIONS         how many numbers, and the name of what computes them
+//   HAS_INSTRUCTIONS            whether anything computes them at once
+//
 //   all(x), load(numbers)       the same number in all lanes; WIDTH numbers from memory
 //   store(numbers, a)           to memory
 //   loadBytes(bytes)            WIDTH bytes as Ints; may read 16
-//   permute(a, lanes)           of each of the lanes that are named, the number in it
+//   permute(a, lanes)           of each of the lanes that are named, the number in it; of a lane
+//                               the lowest bits count
+//   shiftRight(a, bits)         of Ints; zeros come in
 //   + - * and unary -           of Floats, rounded each
 //   multiplyAdd(a, b, c)        a * b + c, rounded once where there is an instruction for it
 //   multiplySubtract(a, b, c)   a * b - c, likewise
@@ -27,7 +32,7 @@
 //                               their upper bits are the same
 //
 //   topBits(numbers)            the top bits of WIDTH whole numbers in memory
-//   storeChosen(target, mask, numbers)
+//   storeChosen(target, mask, a)
 //                               stores those that the mask chooses, one behind the other; writes
 //                               WIDTH numbers at most, whatever stands behind those that are chosen
 

@@ -12,6 +12,7 @@ namespace bwfirt::wide {
 
 constexpr int WIDTH = 8;
 constexpr const char* INSTRUCTIONS = "AVX2";
+constexpr bool HAS_INSTRUCTIONS = true;
 
 using Floats = __m256;
 using Ints = __m256i;
@@ -26,11 +27,23 @@ inline Floats load(const float* numbers) {
 inline void store(float* numbers, Floats a) {
     _mm256_storeu_ps(numbers, a);
 }
+inline Ints load(const std::uint32_t* numbers) {
+    return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers));
+}
+inline void store(std::uint32_t* numbers, Ints a) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(numbers), a);
+}
 inline Ints loadBytes(const std::uint8_t* bytes) {
     return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(bytes)));
 }
 inline Floats permute(Floats a, Ints lanes) {
     return _mm256_permutevar8x32_ps(a, lanes);
+}
+inline Ints permute(Ints a, Ints lanes) {
+    return _mm256_permutevar8x32_epi32(a, lanes);
+}
+inline Ints shiftRight(Ints a, std::uint32_t bits) {
+    return _mm256_srl_epi32(a, _mm_cvtsi32_si128(static_cast<int>(bits)));
 }
 
 inline Floats multiplyAdd(Floats a, Floats b, Floats c) {
@@ -106,7 +119,8 @@ inline bool isAnyKeyLeft(Keys keys) {
 inline Mask topBits(const std::uint32_t* numbers) {
     return maskOf(load(reinterpret_cast<const float*>(numbers)));
 }
-inline void storeChosen(std::uint32_t* target, Mask mask, const std::uint32_t* numbers) {
+/// The lanes that a mask chooses, from the lowest on.
+inline Ints chosenLanes(Mask mask) {
     static constexpr auto LANES = [] {
         std::array<std::array<std::uint8_t, WIDTH>, 1 << WIDTH> lanes{};
         for (Mask chosen = 0; chosen < lanes.size(); ++chosen) {
@@ -116,9 +130,13 @@ inline void storeChosen(std::uint32_t* target, Mask mask, const std::uint32_t* n
         }
         return lanes;
     }();
-    const Ints all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers));
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(target),
-                        _mm256_permutevar8x32_epi32(all, loadBytes(LANES[mask].data())));
+    return loadBytes(LANES[mask].data());
+}
+inline void storeChosen(std::uint32_t* target, Mask mask, Ints a) {
+    store(target, permute(a, chosenLanes(mask)));
+}
+inline void storeChosen(float* target, Mask mask, Floats a) {
+    store(target, permute(a, chosenLanes(mask)));
 }
 
 }  // namespace bwfirt::wide

@@ -12,6 +12,7 @@ namespace bwfirt::wide {
 
 constexpr int WIDTH = 16;
 constexpr const char* INSTRUCTIONS = "AVX-512";
+constexpr bool HAS_INSTRUCTIONS = true;
 
 using Floats = __m512;
 using Ints = __m512i;
@@ -26,11 +27,20 @@ inline Floats load(const float* numbers) {
 inline void store(float* numbers, Floats a) {
     _mm512_storeu_ps(numbers, a);
 }
+inline Ints load(const std::uint32_t* numbers) {
+    return _mm512_loadu_si512(numbers);
+}
 inline Ints loadBytes(const std::uint8_t* bytes) {
     return _mm512_cvtepu8_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes)));
 }
 inline Floats permute(Floats a, Ints lanes) {
     return _mm512_permutexvar_ps(lanes, a);
+}
+inline Ints permute(Ints a, Ints lanes) {
+    return _mm512_permutexvar_epi32(lanes, a);
+}
+inline Ints shiftRight(Ints a, std::uint32_t bits) {
+    return _mm512_srl_epi32(a, _mm_cvtsi32_si128(static_cast<int>(bits)));
 }
 
 inline Floats multiplyAdd(Floats a, Floats b, Floats c) {
@@ -92,9 +102,11 @@ inline bool isAnyKeyLeft(Keys keys) {
 inline Mask topBits(const std::uint32_t* numbers) {
     return _mm512_movepi32_mask(_mm512_loadu_si512(numbers));
 }
-inline void storeChosen(std::uint32_t* target, Mask mask, const std::uint32_t* numbers) {
-    _mm512_storeu_si512(target, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask),
-                                                            _mm512_loadu_si512(numbers)));
+inline void storeChosen(std::uint32_t* target, Mask mask, Ints a) {
+    _mm512_storeu_si512(target, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), a));
+}
+inline void storeChosen(float* target, Mask mask, Floats a) {
+    store(target, _mm512_maskz_compress_ps(static_cast<__mmask16>(mask), a));
 }
 
 }  // namespace bwfirt::wide

@@ -13,6 +13,7 @@ namespace bwfirt::wide {
 
 constexpr int WIDTH = 8;
 constexpr const char* INSTRUCTIONS = "no instructions of its own";
+constexpr bool HAS_INSTRUCTIONS = false;
 
 using Mask = std::uint32_t;
 
@@ -21,7 +22,7 @@ struct Numbers {
     std::array<Number, WIDTH> lanes;
 };
 using Floats = Numbers<float>;
-using Ints = Numbers<std::int32_t>;
+using Ints = Numbers<std::uint32_t>;
 
 /// The result of a function of each lane's number.
 template <typename Function>
@@ -42,19 +43,22 @@ Mask maskOf(const Function& function) {
 inline Floats all(float x) {
     return perLane([&](std::size_t) { return x; });
 }
-inline Floats load(const float* numbers) {
+template <typename Number>
+Numbers<Number> load(const Number* numbers) {
     return perLane([&](std::size_t i) { return numbers[i]; });
 }
 inline void store(float* numbers, const Floats& a) {
     std::copy(a.lanes.begin(), a.lanes.end(), numbers);
 }
 inline Ints loadBytes(const std::uint8_t* bytes) {
-    return perLane([&](std::size_t i) { return std::int32_t{bytes[i]}; });
+    return perLane([&](std::size_t i) { return std::uint32_t{bytes[i]}; });
 }
-/// Lanes behind a leaf's own may name any other.
-inline Floats permute(const Floats& a, const Ints& lanes) {
-    return perLane(
-        [&](std::size_t i) { return a.lanes[static_cast<std::size_t>(lanes.lanes[i]) % WIDTH]; });
+template <typename Number>
+Numbers<Number> permute(const Numbers<Number>& a, const Ints& lanes) {
+    return perLane([&](std::size_t i) { return a.lanes[lanes.lanes[i] % WIDTH]; });
+}
+inline Ints shiftRight(const Ints& a, std::uint32_t bits) {
+    return perLane([&](std::size_t i) { return a.lanes[i] >> bits; });
 }
 
 inline Floats operator+(const Floats& a, const Floats& b) {
@@ -107,7 +111,7 @@ inline Mask isNotLess(const Floats& a, const Floats& b) {
     return maskOf([&](std::size_t i) { return !(a.lanes[i] < b.lanes[i]); });
 }
 
-using Keys = Ints;
+using Keys = Numbers<std::int32_t>;
 
 inline Keys noKeys() {
     return perLane([](std::size_t) { return NO_KEY; });
@@ -132,9 +136,10 @@ inline bool isAnyKeyLeft(const Keys& keys) {
 inline Mask topBits(const std::uint32_t* numbers) {
     return maskOf([&](std::size_t i) { return numbers[i] >> 31 != 0; });
 }
-inline void storeChosen(std::uint32_t* target, Mask mask, const std::uint32_t* numbers) {
+template <typename Number>
+void storeChosen(Number* target, Mask mask, const Numbers<Number>& a) {
     for (; mask != 0; mask &= mask - 1)
-        *target++ = numbers[std::countr_zero(mask)];
+        *target++ = a.lanes[static_cast<std::size_t>(std::countr_zero(mask))];
 }
 
 }  // namespace bwfirt::wide

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "kernel/WatertightRay.h"
-#include "kernel/wide-bvh/LeafTest.h"
+#include "kernel/wide-bvh/LeafHits.h"
 #include "kernel/wide-bvh/NodeTest.h"
 
 #include <bit>
@@ -13,36 +12,22 @@ namespace bwfirt::wide {
 /// boxes of two nodes are tested at a time: one does not have to wait for the other.
 class VisibilityQuery {
   public:
-    using Question = RTKernel::Segment;
-    using Answer = bool;
-
     VisibilityQuery(const WideTree& tree, const RTKernel::Segment& segment)
         : tree_(tree),
           segment_(segment),
           constants_(segment.x, segment.y - segment.x, tree.reach()) {
-        nodes_[0] = 0;
+        nodes_[0] = WideTree::ROOT;
     }
 
-    /// False where the answer is found.
-    bool step() {
-        if (leafCount_ > 0) {
-            isVisible_ = !isBlockedBy(tree_.leaf(leaves_[--leafCount_]));
-            return isVisible_ && (leafCount_ > 0 || nodeCount_ > 0);
+    bool answer() {
+        while (leafCount_ > 0 || nodeCount_ > 0) {
+            if (leafCount_ == 0)
+                visitNodes();
+            else if (isBlockedBy(tree_.leaf(leaves_[--leafCount_]), constants_, segment_))
+                return false;
         }
-        visitNodes();
-        return leafCount_ > 0 || nodeCount_ > 0;
+        return true;
     }
-
-    /// Has the memory fetched that the next step reads.
-    void prefetch() const {
-        if (leafCount_ > 0)
-            return tree_.prefetch(leaves_[leafCount_ - 1]);
-        tree_.prefetch(nodes_[nodeCount_ - 1]);
-        if (nodeCount_ > 1)
-            tree_.prefetch(nodes_[nodeCount_ - 2]);
-    }
-
-    Answer answer() const { return isVisible_; }
 
   private:
     static constexpr std::size_t AT_A_TIME = 2;
@@ -68,32 +53,13 @@ class VisibilityQuery {
     }
 
     static void append(std::uint32_t* stack, std::size_t& count, Mask chosen, const Node& node) {
-        storeChosen(stack + count, chosen, node.children.data());
+        storeChosen(stack + count, chosen, load(node.children.data()));
         count += static_cast<std::size_t>(std::popcount(chosen));
-    }
-
-    bool isBlockedBy(const Leaf& leaf) const {
-        const LeafMeeting meeting = meet(leaf, constants_, 1);
-        if (meeting.certain != 0)
-            return true;
-        return meeting.possible != 0 && isBlockedBy(leaf, meeting.possible);
-    }
-
-    [[gnu::noinline]] bool isBlockedBy(const Leaf& leaf, Mask possible) const {
-        const WatertightRay exact(V3d(segment_.x), V3d(segment_.y) - V3d(segment_.x));
-        for (; possible != 0; possible &= possible - 1) {
-            const auto triangle = static_cast<std::size_t>(std::countr_zero(possible));
-            const std::optional<double> t = exact.intersect(leaf.triangle(triangle));
-            if (t && *t < 1)
-                return true;
-        }
-        return false;
     }
 
     const WideTree& tree_;
     RTKernel::Segment segment_;
     RayConstants constants_;
-    bool isVisible_ = true;
     std::size_t nodeCount_ = 1, leafCount_ = 0;
     /// A node on the way down leaves at most its other children there; storeChosen writes beyond.
     std::array<std::uint32_t, (WideTree::MOST_DEPTH + 1) * AT_A_TIME * WIDTH> nodes_;

@@ -1,30 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "kernel/RTKernel.h"
+#include "kernel/wide-bvh/InFlight.h"
 #include "kernel/wide-bvh/NearestQuery.h"
 #include "kernel/wide-bvh/VisibilityQuery.h"
-
-#include <numeric>
 
 namespace bwfirt {
 
 namespace {
 
 using namespace wide;
-
-bool canBeAsked(const Ray& ray) {
-    return isFinite(ray.origin) && isFinite(ray.direction) && ray.direction != V3f(0);
-}
-
-bool canBeAsked(const RTKernel::Segment& segment) {
-    return canBeAsked(Ray{segment.x, segment.y - segment.x});
-}
-
-std::optional<Hit> answerWithoutTriangles(const Ray&) {
-    return std::nullopt;
-}
-bool answerWithoutTriangles(const RTKernel::Segment&) {
-    return true;
-}
 
 class WideBvh : public RTKernel {
   public:
@@ -37,88 +21,53 @@ class WideBvh : public RTKernel {
     }
 
     std::optional<Hit> kernelIntersectGeometry(const Ray& ray) const override {
-        return ask<NearestQuery>(ray);
+        if (!canBeAsked(ray.origin, ray.direction))
+            return std::nullopt;
+        return NearestQuery(tree_, ray).answer();
     }
 
     bool kernelVisibility(const V3f& x, const V3f& y) const override {
-        return ask<VisibilityQuery>({x, y});
+        if (!canBeAsked(x, y - x))
+            return true;
+        return VisibilityQuery(tree_, {x, y}).answer();
     }
+
+    // Rays in flight are spared branches by doing more work, which does not pay where each number
+    // takes an instruction of its own.
 
     void kernelIntersectMany(std::span<const Ray> rays,
                              std::span<std::optional<Hit>> hits) const override {
-        if constexpr (IN_TURNS)
-            askInTurns<NearestQuery>(rays, hits);
+        if constexpr (HAS_INSTRUCTIONS)
+            askInFlight<NearestInFlight>(rays, hits, std::optional<Hit>());
         else
             RTKernel::kernelIntersectMany(rays, hits);
     }
 
     void kernelVisibleMany(std::span<const Segment> segments,
                            std::span<bool> visible) const override {
-        if constexpr (IN_TURNS)
-            askInTurns<VisibilityQuery>(segments, visible);
+        if constexpr (HAS_INSTRUCTIONS)
+            askInFlight<VisibilityInFlight>(segments, visible, true);
         else
             RTKernel::kernelVisibleMany(segments, visible);
     }
 
   private:
-    /// With narrow registers each step has branches of its own to be mispredicted, and a processor
-    /// that has to guess for many rays at once guesses worse than it hides the latency of memory.
-    static constexpr bool IN_TURNS = HAS_WIDE_REGISTERS;
-
-    /// Queries that take turns: enough of them to wait for memory together.
-    static constexpr std::size_t TURNS = 16;
-
-    template <typename Query>
-    typename Query::Answer ask(const typename Query::Question& question) const {
-        if (tree_.isEmpty() || !canBeAsked(question))
-            return answerWithoutTriangles(question);
-        Query query(tree_, question);
-        while (query.step()) {
-        }
-        return query.answer();
+    bool canBeAsked(const V3f& origin, const V3f& direction) const {
+        return !tree_.isEmpty() && isFinite(origin) && isFinite(direction) && direction != V3f(0);
     }
 
-    /// Lets queries take a step in turns, and has memory fetched for the next step of each while
-    /// the others take theirs.
-    template <typename Query>
-    void askInTurns(std::span<const typename Query::Question> questions,
-                    std::span<typename Query::Answer> answers) const {
-        union Slot {
-            Slot() {}  // leaves the query for later
-            Query query;
-        };
-        std::array<Slot, TURNS> slots;
-        std::array<std::size_t, TURNS> numbers;  // of their questions
-        std::array<std::size_t, TURNS> order;    // the queries that are under way come first
-        std::iota(order.begin(), order.end(), std::size_t{0});
-        std::size_t begun = 0;
-        const auto begin = [&](std::size_t i) {
-            while (begun < questions.size()) {
-                const std::size_t number = begun++;
-                if (!tree_.isEmpty() && canBeAsked(questions[number])) {
-                    std::construct_at(&slots[i].query, tree_, questions[number]);
-                    numbers[i] = number;
-                    return true;
-                }
-                answers[number] = answerWithoutTriangles(questions[number]);
-            }
-            return false;
-        };
-        std::size_t count = 0;
-        while (count < TURNS && begin(count))
-            ++count;
-        while (count > 0) {
-            for (std::size_t turn = 0; turn < count; ++turn) {
-                const std::size_t i = order[turn];
-                Query& query = slots[i].query;
-                if (query.step()) {
-                    query.prefetch();
-                    continue;
-                }
-                answers[numbers[i]] = query.answer();
-                if (!begin(i))
-                    std::swap(order[turn], order[--count]);
-            }
+    template <typename Queries, typename Question, typename Answer>
+    void askInFlight(std::span<const Question> questions, std::span<Answer> answers,
+                     const Answer& withoutTriangles) const {
+        if (tree_.isEmpty()) {
+            std::fill(answers.begin(), answers.end(), withoutTriangles);
+            return;
+        }
+        for (std::size_t begin = 0; begin < questions.size(); begin += RayBatch::SIZE) {
+            const std::size_t count = std::min(questions.size() - begin, RayBatch::SIZE);
+            const Queries queries(tree_, questions.subspan(begin, count));
+            for (std::size_t i = 0; i < count; ++i)
+                answers[begin + i] = queries.answer(i);
         }
     }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 namespace bwfirt::wide {
@@ -61,6 +62,30 @@ Node emptyNode(std::uint32_t noChild) {
     return node;
 }
 
+/// Children whose centres are farther along an octant's diagonal are likely to be met later. Where
+/// there is no child, it comes first, since it is never met.
+void setOrder(Node& node, std::size_t children) {
+    node.order.fill(0);
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+        std::array<float, WIDTH> distances;
+        distances.fill(std::numeric_limits<float>::infinity());
+        for (std::size_t i = 0; i < children; ++i) {
+            distances[i] = 0;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const float sign = (octant >> axis & 1) != 0 ? -1.0F : 1.0F;
+                distances[i] += sign * (node.planes[axis][i] / 2 + node.planes[3 + axis][i] / 2);
+            }
+        }
+        std::array<std::uint32_t, WIDTH> lanes;
+        std::iota(lanes.begin(), lanes.end(), 0U);
+        std::sort(lanes.begin(), lanes.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return distances[a] != distances[b] ? distances[a] > distances[b] : a < b;
+        });
+        for (std::size_t i = 0; i < WIDTH; ++i)
+            node.order[i] |= lanes[i] << Node::shift(octant);
+    }
+}
+
 }  // namespace
 
 WideTree::WideTree(std::span<const Triangle> triangles) {
@@ -80,6 +105,7 @@ bool WideTree::build(std::span<const Triangle> triangles, int reinsertions) {
     const std::size_t size = collapse.extent();
     if (size >= Child::MOST_LINES)
         throw std::length_error("the tree has more nodes than it can number");
+    end_ = Child::LEAF | static_cast<std::uint32_t>(size + 1);
     reach_ = reachOf(binary.nodes[0].bounds);
     lines_ = makeKernelArrayInHugePages<Line>(size + END_LINES);
     std::fill_n(lines_.get() + size, END_LINES, Line{});
@@ -100,6 +126,7 @@ bool WideTree::build(std::span<const Triangle> triangles, int reinsertions) {
             content.collect(triangles, binary, child.node);
             content.write(&lines_[child.begin]);
         }
+        setOrder(node, children.size());
         std::memcpy(&lines_[begin], &node, sizeof node);
     });
     return true;
