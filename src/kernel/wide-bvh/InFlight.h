@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "kernel/wide-bvh/DropBeyond.h"
 #include "kernel/wide-bvh/LeafHits.h"
 #include "kernel/wide-bvh/NodeTest.h"
 #include "kernel/wide-bvh/RayBatch.h"
@@ -100,24 +101,9 @@ class NearestInFlight : InFlight<NearestInFlight> {
         NearestHit& nearest = nearest_[ray];
         const Mask possible = meet(leaf, rays_[ray], nearest.tMax()).possible;
         if (nearest.test(questions_[ray], leaf, possible))
-            dropBeyondHit(ray);
+            sizes_[ray] =
+                dropBeyond(nearest.tMax(), stacks_[ray].data(), enters_[ray].data(), sizes_[ray]);
         return false;
-    }
-
-    /// Leaves those children on the stack that the ray enters before its hit.
-    void dropBeyondHit(std::size_t ray) {
-        const Floats tMax = all(nearest_[ray].tMax());
-        const std::uint32_t size = sizes_[ray];
-        std::uint32_t kept = 0;
-        for (std::uint32_t i = 0; i < size; i += WIDTH) {
-            const Floats enter = load(&enters_[ray][i]);
-            const auto here = std::min<std::uint32_t>(size - i, WIDTH);
-            const Mask met = isLessOrEqual(enter, tMax) & ((Mask{1} << here) - 1);
-            storeChosen(&stacks_[ray][kept], met, load(&stacks_[ray][i]));
-            storeChosen(&enters_[ray][kept], met, enter);
-            kept += static_cast<std::uint32_t>(std::popcount(met));
-        }
-        sizes_[ray] = kept;
     }
 
     std::span<const Ray> questions_;

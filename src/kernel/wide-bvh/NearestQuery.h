@@ -26,12 +26,12 @@ class NearestQuery {
     bool step() {
         if (!Child::isLeaf(next_)) {
             const Node& node = tree_.node(next_);
-            return open_.enter(tree_, node, meet(node, constants_, nearest_.tMax()),
-                               nearest_.tMax(), next_);
+            return open_.enter(tree_, node, meet(node, constants_, nearest_.tMax()), next_);
         }
         const Leaf leaf = tree_.leaf(next_);
-        nearest_.test(ray_, leaf, meet(leaf, constants_, nearest_.tMax()).possible);
-        return open_.take(tree_, nearest_.tMax(), next_);
+        if (nearest_.test(ray_, leaf, meet(leaf, constants_, nearest_.tMax()).possible))
+            open_.dropBeyond(nearest_.tMax());
+        return open_.take(tree_, next_);
     }
 
     const WideTree& tree_;

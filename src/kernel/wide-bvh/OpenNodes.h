@@ -4,6 +4,7 @@
 #include "kernel/wide-bvh/NodeTest.h"
 
 #include <array>
+#include <limits>
 
 namespace bwfirt::wide {
 
@@ -13,23 +14,23 @@ namespace bwfirt::wide {
 class OpenNodes {
   public:
     /// Adds the children of a node, and takes the nearest of all.
-    bool enter(const WideTree& tree, const Node& node, const NodeMeeting& meeting, float tMax,
+    bool enter(const WideTree& tree, const Node& node, const NodeMeeting& meeting,
                std::uint32_t& next) {
         keysStack_[size_].keys = keys_;
         nodeStack_[size_] = node_;
         size_ += isAnyKeyLeft(keys_) ? 1 : 0;
         node_ = &node;
         keys_ = keysOf(meeting.t, meeting.children);
-        return take(tree, tMax, next);
+        return take(tree, next);
     }
 
     /// Takes the nearest child of the last node that has any left. A key is less than the distance
     /// that it stands for by its lowest bits. While a leaf is tested, the child after it is
     /// fetched.
-    /// @return false where there is none before tMax
-    bool take(const WideTree& tree, float tMax, std::uint32_t& next) {
+    /// @return false where there is none left
+    bool take(const WideTree& tree, std::uint32_t& next) {
         std::int32_t key = least(keys_);
-        while (isBeyond(key, tMax)) {
+        while (isBeyond(key, tMax_)) {
             if (size_ == 0)
                 return false;
             keys_ = keysStack_[--size_].keys;
@@ -44,7 +45,11 @@ class OpenNodes {
         return true;
     }
 
+    /// After a hit: what lies beyond it falls away when it is taken.
+    void dropBeyond(float tMax) { tMax_ = tMax; }
+
   private:
+    float tMax_ = std::numeric_limits<float>::max();
     Keys keys_ = noKeys();  ///< of the last node
     const Node* node_ = nullptr;
     /// Of those above it.
