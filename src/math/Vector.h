@@ -12,6 +12,10 @@ namespace bwfirt {
 using Imath::V3d;
 using Imath::V3f;
 
+/// In templates Number is double, or several doubles with which a processor computes at once
+/// (kernel/Simd4.h): each of them then gets the very bits that it would get alone.
+using Imath::Vec3;
+
 /// True where no component is infinite or NaN.
 template <typename T>
 bool isFinite(const Imath::Vec3<T>& v) {

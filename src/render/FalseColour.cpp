@@ -2,6 +2,7 @@
 #include "render/FalseColour.h"
 
 #include "film/ColourMap.h"
+#include "math/Random.h"
 
 #include <chrono>
 #include <cmath>
@@ -64,7 +65,7 @@ V3d FalseColour::colourOf(const Ray& ray, const Hit& hit) const {
         return {red, green, blue};
     }
     const V3d direction(ray.direction);
-    const V3d normal = unitNormalAgainst(direction, scene_.triangles[hit.triangle]);
+    const V3d normal = unitAgainst(direction, edgeCross(scene_.triangles[hit.triangle]));
     if (view_ == View::EVEN_LIGHT)
         return V3d(scene_.reflectance * -normal.dot(direction));
     return (normal + V3d(1)) / 2;

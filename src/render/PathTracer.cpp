@@ -2,10 +2,13 @@
 #include "render/PathTracer.h"
 
 #include "math/Sampling.h"
+#include "render/Lanes.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <numbers>
+#include <tuple>
 #include <vector>
 
 namespace bwfirt {
@@ -16,12 +19,6 @@ namespace {
 void prefetch(const Triangle& triangle) {
     __builtin_prefetch(&triangle.vertices.front());
     __builtin_prefetch(&triangle.vertices.back());
-}
-
-Sample& takeFirst(std::span<Sample>& samples) {
-    Sample& first = samples.front();
-    samples = samples.subspan(1);
-    return first;
 }
 
 }  // namespace
@@ -36,75 +33,193 @@ PathTracer::PathTracer(const Scene& scene, const RTKernel& kernel, const Camera&
       brdf_(scene.reflectance / std::numbers::pi),
       inFlight_(static_cast<std::size_t>(inFlight)) {}
 
-PathTracer::Path PathTracer::begin(Sample& sample) const {
-    Path path{&sample, Random(sample.seed), {}, 0, 0, true, {}, {}, 0};
-    const auto [u, v] = path.random.uniformSquare();
-    path.ray = cameraRays_.through(sample.x + u, sample.y + v);
-    return path;
-}
+/// The paths that a thread follows at the same time, between two questions to the kernel. There is
+/// room for some more, since LANES paths are written at once, of which not all need be kept.
+struct PathTracer::Paths {
+    explicit Paths(std::size_t most)
+        : most(most),
+          states(most + LANES),
+          rays(most + LANES),
+          hits(most),
+          arrived(most + LANES),
+          choices(most / LANES + 1),
+          connections(most + LANES),
+          segments(most + LANES),
+          visible(std::make_unique<bool[]>(most)) {}
 
-void PathTracer::arrive(Path& path, const std::optional<Hit>& hit) const {
-    path.contribution = 0;
-    path.goesOn = false;
-    if (!hit)
-        return;
-    const V3d direction(path.ray.direction);
-    const V3d normal = unitNormalAgainst(direction, scene_.triangles[hit->triangle]);
-    if (path.bounce == 0)
-        path.radiance += lights_.radiance(hit->triangle);
+    struct State {
+        Sample* sample;        ///< its value: the radiance found so far
+        std::uint64_t random;  ///< the state of its random numbers
+    };
 
-    const V3d hitPoint = V3d(path.ray.origin) + static_cast<double>(hit->distance) * direction;
-    const V3d x = hitPoint + RTKernel::NORMAL_OFFSET * normal;
-    path.x = V3f(x);
-    const LightSample light = lights_.sample(path.random);
-    scatter(path, normal);
-    connect(path, x, normal, light);
-}
+    /// Random choices of LANES paths that met surfaces.
+    struct Choices {
+        std::array<const Emitter*, LANES> emitters;
+        Doubles4 u, v;                 ///< point of the emitter
+        Doubles4 x, y;                 ///< point of the unit disc: direction
+        std::array<bool, LANES> goOn;  ///< into that direction
+    };
 
-void PathTracer::scatter(Path& path, const V3d& normal) const {
-    path.goesOn = path.random.uniform() < scene_.reflectance;
-    if (path.goesOn)
-        path.ray = {path.x, V3f(sampleCosineHemisphere(normal, path.random))};
-}
+    struct Connection {
+        Sample* sample;
+        double contribution;  ///< where V finds nothing between
+    };
 
-void PathTracer::connect(Path& path, const V3d& x, const V3d& normal,
-                         const LightSample& light) const {
-    const double side = std::copysign(1.0, -light.normal.dot(light.point - x));
-    const V3d y = light.point + side * RTKernel::NORMAL_OFFSET * light.normal;
-    path.y = V3f(y);
+    std::size_t most;
+    std::size_t count = 0;  ///< that are under way
+    std::size_t begun = 0;  ///< the first of them that comes from the camera
+    std::vector<State> states;
+    std::vector<Ray> rays;  ///< to be followed next
+    std::vector<std::optional<Hit>> hits;
+    std::vector<std::size_t> arrived;  ///< paths that met a surface
+    std::vector<Choices> choices;
 
-    const V3d d = y - x;
-    const double cosX = normal.dot(d), cosY = -side * light.normal.dot(d);  // times |d|
-    if (cosX > 0 && cosY > 0) {
-        const double distanceSquared = d.dot(d);
-        path.contribution = brdf_ * light.radiance * cosX * cosY /
-                            (distanceSquared * distanceSquared * light.pdfArea);
+    std::size_t connected = 0;  ///< connections for which V is asked
+    std::vector<Connection> connections;
+    std::vector<RTKernel::Segment> segments;
+    std::unique_ptr<bool[]> visible;
+};
+
+void PathTracer::begin(Paths& paths, std::span<Sample>& samples) const {
+    paths.begun = paths.count;
+    for (; paths.count < paths.most && !samples.empty(); ++paths.count) {
+        Sample& sample = samples.front();
+        samples = samples.subspan(1);
+        sample.value = V3d(0);
+        Random random(sample.seed);
+        const auto [u, v] = random.uniformSquare();
+        paths.rays[paths.count] = cameraRays_.through(sample.x + u, sample.y + v);
+        paths.states[paths.count] = {&sample, random.state()};
     }
 }
 
-void PathTracer::end(const Path& path) const {
-    path.sample->value = V3d(sensorResponse_ * path.radiance);
+void PathTracer::choose(Paths& paths, std::size_t first) const {
+    const std::size_t* const arrived = &paths.arrived[first];
+    Paths::Choices& choices = paths.choices[first / LANES];
+    RandomLanes random(
+        gather<Bits4>([&](std::size_t lane) { return paths.states[arrived[lane]].random; }));
+    const Doubles4 emitters = random.uniform();
+    std::tie(choices.u, choices.v) = random.uniformSquare();
+    const Doubles4 roulette = random.uniform();
+    std::tie(choices.x, choices.y) = sampleDisc(random);
+    for (std::size_t lane = 0; lane < LANES; ++lane) {
+        choices.emitters[lane] = &lights_.choose(emitters[lane]);
+        choices.goOn[lane] = roulette[lane] < scene_.reflectance;
+        paths.states[arrived[lane]].random = random.state()[lane];
+    }
+}
+
+void PathTracer::scatter(Paths& paths, std::size_t first, std::size_t lanes) const {
+    std::array<Paths::State, LANES> states;
+    std::array<const Ray*, LANES> rays;
+    std::array<const Triangle*, LANES> triangles;
+    std::array<float, LANES> distances;
+    const Paths::Choices& choices = paths.choices[first / LANES];
+    for (std::size_t lane = 0; lane < LANES; ++lane) {
+        const std::size_t path = paths.arrived[first + lane];
+        states[lane] = paths.states[path];
+        rays[lane] = &paths.rays[path];
+        triangles[lane] = &scene_.triangles[paths.hits[path]->triangle];
+        distances[lane] = paths.hits[path]->distance;
+    }
+    const auto vertex = [&](std::size_t i) {
+        return gatherV3f([&](std::size_t lane) { return triangles[lane]->vertices[i]; });
+    };
+    const auto numberOfEmitter = [&](double Emitter::*number) {
+        return gather<Doubles4>([&](std::size_t lane) { return choices.emitters[lane]->*number; });
+    };
+    const auto vectorOfEmitter = [&](V3d Emitter::*vector) {
+        return gatherV3d([&](std::size_t lane) { return choices.emitters[lane]->*vector; });
+    };
+
+    const V3Lanes origin = gatherV3f([&](std::size_t lane) { return rays[lane]->origin; });
+    const V3Lanes direction = gatherV3f([&](std::size_t lane) { return rays[lane]->direction; });
+    const auto distance = std::experimental::static_simd_cast<Doubles4>(
+        gather<Floats4>([&](std::size_t lane) { return distances[lane]; }));
+    const V3Lanes normal = unitAgainst(direction, edgeCross(vertex(0), vertex(1), vertex(2)));
+    const Doubles4 offset(RTKernel::NORMAL_OFFSET);
+    const V3Lanes x = origin + distance * direction + offset * normal;
+
+    const V3Lanes light =
+        pointOfTriangle(vectorOfEmitter(&Emitter::a), vectorOfEmitter(&Emitter::ab),
+                        vectorOfEmitter(&Emitter::bc), choices.u, choices.v);
+    const V3Lanes lightNormal = vectorOfEmitter(&Emitter::normal);
+    const Doubles4 side = copysign(Doubles4(1), -lightNormal.dot(light - x));
+    const V3Lanes y = light + side * offset * lightNormal;
+
+    const V3Lanes d = y - x;
+    const Doubles4 cosX = max(normal.dot(d), Doubles4(0));  // times |d|, as is the next
+    const Doubles4 cosY = max(-side * lightNormal.dot(d), Doubles4(0));
+    const Doubles4 distanceSquared = d.dot(d);
+    const Doubles4 contribution =
+        brdf_ * numberOfEmitter(&Emitter::radiance) * cosX * cosY /
+        (distanceSquared * distanceSquared * numberOfEmitter(&Emitter::pdfArea));
+
+    const auto xs = scatterV3f(x), ys = scatterV3f(y);
+    const auto directions = scatterV3f(cosineHemisphere(normal, choices.x, choices.y));
+    std::size_t count = paths.count, connected = paths.connected;
+    for (std::size_t lane = 0; lane < LANES; ++lane) {
+        paths.segments[connected] = {xs[lane], ys[lane]};
+        paths.connections[connected] = {states[lane].sample, contribution[lane]};
+        connected += (lane < lanes) & (contribution[lane] > 0);
+        paths.rays[count] = {xs[lane], directions[lane]};
+        paths.states[count] = states[lane];
+        count += (lane < lanes) & choices.goOn[lane];
+    }
+    paths.count = count;
+    paths.connected = connected;
+}
+
+void PathTracer::arrive(Paths& paths) const {
+    for (std::size_t i = paths.begun; i < paths.count; ++i)
+        if (paths.hits[i])
+            paths.states[i].sample->value += V3d(lights_.radiance(paths.hits[i]->triangle));
+
+    std::size_t arrived = 0;
+    for (std::size_t i = 0; i < paths.count; ++i) {
+        paths.arrived[arrived] = i;
+        arrived += paths.hits[i] ? 1 : 0;
+    }
+    paths.count = paths.connected = 0;
+    if (arrived == 0)
+        return;
+    // Lanes that are over repeat the last path.
+    std::fill_n(&paths.arrived[arrived], LANES - 1, paths.arrived[arrived - 1]);
+    for (std::size_t i = 0; i < arrived; ++i)
+        prefetch(scene_.triangles[paths.hits[paths.arrived[i]]->triangle]);
+    for (std::size_t first = 0; first < arrived; first += LANES)
+        choose(paths, first);
+    for (std::size_t first = 0; first < arrived; first += LANES)
+        scatter(paths, first, arrived - first);
+}
+
+void PathTracer::end(std::span<Sample> samples) const {
+    for (Sample& sample : samples)
+        sample.value *= sensorResponse_;
 }
 
 void PathTracer::trace(std::span<Sample> samples, RayCounts& counts, RayListener& listener) const {
+    Paths path(1);
     for (Sample& sample : samples) {
-        Path path = begin(sample);
-        for (; path.goesOn; ++path.bounce) {
-            const Ray ray = path.ray;
-            const std::optional<Hit> hit = kernel_.kernelIntersectGeometry(ray);
+        std::span<Sample> rest(&sample, 1);
+        begin(path, rest);
+        for (int bounce = 0; path.count > 0; ++bounce) {
+            path.hits[0] = kernel_.kernelIntersectGeometry(path.rays[0]);
             ++counts.intersect;
-            listener.intersected(ray, path.bounce, hit);
-            arrive(path, hit);
-            if (path.contribution > 0) {
-                const bool isVisible = kernel_.kernelVisibility(path.x, path.y);
+            listener.intersected(path.rays[0], bounce, path.hits[0]);
+            arrive(path);
+            path.begun = path.count;
+            if (path.connected > 0) {
+                const auto& [x, y] = path.segments[0];
+                const bool isVisible = kernel_.kernelVisibility(x, y);
                 ++counts.visibility;
-                listener.connected(path.x, path.y, path.bounce, isVisible);
+                listener.connected(x, y, bounce, isVisible);
                 if (isVisible)
-                    path.radiance += path.contribution;
+                    sample.value += V3d(path.connections[0].contribution);
             }
         }
-        end(path);
     }
+    end(samples);
 }
 
 void PathTracer::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
@@ -112,9 +227,6 @@ void PathTracer::intersect(std::span<const Ray> rays, std::span<std::optional<Hi
         kernel_.RTKernel::kernelIntersectMany(rays, hits);
     else
         kernel_.kernelIntersectMany(rays, hits);
-    for (const std::optional<Hit>& hit : hits)
-        if (hit)
-            prefetch(scene_.triangles[hit->triangle]);
 }
 
 void PathTracer::see(std::span<const RTKernel::Segment> segments, std::span<bool> visible) const {
@@ -124,59 +236,22 @@ void PathTracer::see(std::span<const RTKernel::Segment> segments, std::span<bool
         kernel_.kernelVisibleMany(segments, visible);
 }
 
-void PathTracer::replaceEnded(std::vector<Path>& paths, std::span<Sample>& samples) const {
-    for (std::size_t i = 0; i < paths.size();) {
-        if (paths[i].goesOn) {
-            ++i;
-            continue;
-        }
-        end(paths[i]);
-        if (!samples.empty()) {
-            paths[i] = begin(takeFirst(samples));
-        } else {
-            paths[i] = paths.back();
-            paths.pop_back();
-        }
-    }
-}
-
 // Flattened, the steps of a path hand it to each other in registers (build/framework-cost).
 [[gnu::flatten]] void PathTracer::trace(std::span<Sample> samples, RayCounts& counts) const {
-    const std::size_t most = inFlight_ == 1 ? PATHS_IN_TURNS : inFlight_;
-    std::vector<Path> paths;
-    std::vector<Ray> rays(most);
-    std::vector<std::optional<Hit>> hits(most);
-    std::vector<RTKernel::Segment> segments(most);
-    std::vector<std::size_t> connected(most);
-    const auto visible = std::make_unique<bool[]>(most);
-    paths.reserve(most);
-
-    while (paths.size() < most && !samples.empty())
-        paths.push_back(begin(takeFirst(samples)));
-    while (!paths.empty()) {
-        const std::size_t count = paths.size();
-        for (std::size_t i = 0; i < count; ++i)
-            rays[i] = paths[i].ray;
-        intersect({rays.data(), count}, {hits.data(), count});
-        counts.intersect += count;
-
-        std::size_t connections = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            Path& path = paths[i];
-            arrive(path, hits[i]);
-            ++path.bounce;
-            connected[connections] = i;
-            segments[connections] = {path.x, path.y};
-            connections += path.contribution > 0 ? 1 : 0;
+    Paths paths(inFlight_ == 1 ? PATHS_IN_TURNS : inFlight_);
+    std::span<Sample> rest = samples;
+    for (begin(paths, rest); paths.count > 0; begin(paths, rest)) {
+        intersect({paths.rays.data(), paths.count}, {paths.hits.data(), paths.count});
+        counts.intersect += paths.count;
+        arrive(paths);
+        see({paths.segments.data(), paths.connected}, {paths.visible.get(), paths.connected});
+        counts.visibility += paths.connected;
+        for (std::size_t i = 0; i < paths.connected; ++i) {
+            const auto& [sample, contribution] = paths.connections[i];
+            sample->value += V3d(paths.visible[i] ? contribution : 0.0);
         }
-        see({segments.data(), connections}, {visible.get(), connections});
-        counts.visibility += connections;
-        for (std::size_t i = 0; i < connections; ++i)
-            if (visible[i])
-                paths[connected[i]].radiance += paths[connected[i]].contribution;
-
-        replaceEnded(paths, samples);
     }
+    end(samples);
 }
 
 }  // namespace bwfirt

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "kernel/RTKernel.h"
-#include "math/Random.h"
 #include "render/Integrator.h"
 #include "scene/Camera.h"
 #include "scene/LightSampler.h"
 #include "scene/Scene.h"
 
+#include <cstddef>
 #include <optional>
-#include <vector>
+#include <span>
 
 namespace bwfirt {
 
@@ -51,39 +51,28 @@ class PathTracer : public Integrator {
     /// tracer's work and none of the kernel's while it waits for the other.
     static constexpr std::size_t PATHS_IN_TURNS = 16;
 
-    /// A path between two questions to the kernel.
-    struct Path {
-        Sample* sample;
-        Random random;
-        Ray ray;              ///< to be followed next
-        int bounce;           ///< surfaces met so far
-        double radiance;      ///< found so far
-        bool goesOn;          ///< along the ray; false where it has left the scene or is absorbed
-        V3f x, y;             ///< the connection: from the surface met last to a light
-        double contribution;  ///< of the connection where x sees y; 0 where V need not be asked
-    };
+    struct Paths;
 
-    Path begin(Sample& sample) const;
+    /// As many of the next samples' paths begin as there is room for.
+    void begin(Paths& paths, std::span<Sample>& samples) const;
 
-    /// The ray met a surface, or none: makes the path ready for V and for h after it. Where the
-    /// path goes on is settled before it is known whether V has to be asked: a processor that
-    /// guesses this wrong has then not lost the work on the direction.
-    void arrive(Path& path, const std::optional<Hit>& hit) const;
+    /// From the answers of h to the questions for V and to the next ones for h. Paths that met no
+    /// surface, or are absorbed by it, end. Nothing here waits for V.
+    void arrive(Paths& paths) const;
 
-    /// Chooses whether the path goes on from path.x, and where.
-    void scatter(Path& path, const V3d& normal) const;
-
-    /// Makes the light's point and the contribution of the connection with x.
-    void connect(Path& path, const V3d& x, const V3d& normal, const LightSample& light) const;
-
-    void end(const Path& path) const;
+    /// Draw the random numbers of LANES paths side by side, from this one on of those that met a
+    /// surface, and compute what follows from them: connections and next rays, which are appended
+    /// to those that are asked, of the first `lanes` paths only. All numbers are drawn before any
+    /// triangle is needed, which arrive() has fetched.
+    void choose(Paths& paths, std::size_t first) const;
+    void scatter(Paths& paths, std::size_t first, std::size_t lanes) const;
 
     /// Ask h and V, ray by ray or for all rays together.
     void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
     void see(std::span<const RTKernel::Segment> segments, std::span<bool> visible) const;
 
-    /// Ends the paths that go on no more; the next samples' paths take their places.
-    void replaceEnded(std::vector<Path>& paths, std::span<Sample>& samples) const;
+    /// Scales what the paths of the samples found.
+    void end(std::span<Sample> samples) const;
 
     const Scene& scene_;
     const RTKernel& kernel_;

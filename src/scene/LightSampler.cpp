@@ -16,8 +16,9 @@ LightSampler::LightSampler(const Scene& scene) : lights_(scene.lights) {
             if (!hasArea(triangle))
                 continue;
             power += area(triangle) * light.exitance;
-            emitters_.push_back({power, V3d(triangle.vertices[0]), V3d(triangle.vertices[1]),
-                                 V3d(triangle.vertices[2]), unitNormal(triangle),
+            const V3d a(triangle.vertices[0]), b(triangle.vertices[1]), c(triangle.vertices[2]);
+            powers_.push_back(power);
+            emitters_.push_back({a, b - a, c - b, unitNormal(triangle),
                                  light.exitance / std::numbers::pi, light.exitance});
         }
     }

@@ -14,9 +14,13 @@ struct Triangle {
 static_assert(sizeof(Triangle) == 36, "a triangle is nine floats without padding");
 
 /// (b - a) × (c - a): normal to the triangle, its length twice the area.
-inline V3d edgeCross(const Triangle& triangle) {
-    const V3d a(triangle.vertices[0]), b(triangle.vertices[1]), c(triangle.vertices[2]);
+template <typename Number>
+Vec3<Number> edgeCross(const Vec3<Number>& a, const Vec3<Number>& b, const Vec3<Number>& c) {
     return (b - a).cross(c - a);
+}
+inline V3d edgeCross(const Triangle& triangle) {
+    return edgeCross(V3d(triangle.vertices[0]), V3d(triangle.vertices[1]),
+                     V3d(triangle.vertices[2]));
 }
 
 /// The geometric normal of unit length, counter-clockwise vertices seen from its tip. NaN where the
@@ -26,11 +30,14 @@ inline V3d unitNormal(const Triangle& triangle) {
     return normal * (1 / std::sqrt(normal.dot(normal)));
 }
 
-/// The same normal or its negative, whichever points against the direction. The side is found from
-/// the normal before it has unit length, so that neither waits for the other.
-inline V3d unitNormalAgainst(const V3d& direction, const Triangle& triangle) {
-    const V3d normal = edgeCross(triangle);
-    return normal * std::copysign(1 / std::sqrt(normal.dot(normal)), -normal.dot(direction));
+/// A normal of any length or its negative, whichever points against the direction, of unit length.
+/// The side is found from the normal before it has unit length, so that neither waits for the
+/// other.
+template <typename Number>
+Vec3<Number> unitAgainst(const Vec3<Number>& direction, const Vec3<Number>& normal) {
+    using std::copysign, std::sqrt;
+    const Number inverseLength = 1 / sqrt(normal.dot(normal));
+    return normal * copysign(inverseLength, -normal.dot(direction));
 }
 
 /// In squared scene units.

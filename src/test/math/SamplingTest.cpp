@@ -52,13 +52,23 @@ TEST(Random, NeighbouringSeedsGiveIndependentFirstNumbers) {
     EXPECT_TRUE(fits(counts, std::vector<double>(BINS * BINS, 1.0 / (BINS * BINS))));
 }
 
+// Images depend on these bits: the numbers are those of the SplitMix64 of Java and of Vigna.
+TEST(Random, IsSplitMix64) {
+    Random random(1234567);
+    EXPECT_EQ(random.uniform(), static_cast<double>(6457827717110365317U >> 11) * 0x1p-53);
+    const auto [u, v] = random.uniformSquare();
+    EXPECT_EQ(u, static_cast<double>(3203168211198807973U >> 32) * 0x1p-32);
+    EXPECT_EQ(v, static_cast<double>(3203168211198807973U & 0xffffffff) * 0x1p-32);
+}
+
 class CosineHemisphere : public testing::TestWithParam<V3d> {};
 
 TEST_P(CosineHemisphere, HasUnitLengthAboveTheSurface) {
     const V3d normal = GetParam().normalized();
     Random random(3);
     for (int i = 0; i < 10000; ++i) {
-        const V3d direction = sampleCosineHemisphere(normal, random);
+        const auto [x, y] = sampleDisc(random);
+        const V3d direction = cosineHemisphere(normal, x, y);
         EXPECT_NEAR(direction.length(), 1, 1e-12);
         EXPECT_GE(direction.dot(normal), 0);
     }
@@ -72,10 +82,11 @@ TEST_P(CosineHemisphere, HasCosineDensity) {
     Random random(4);
     std::vector<std::size_t> counts(BINS * BINS);
     for (int i = 0; i < SAMPLES; ++i) {
-        const V3d direction = sampleCosineHemisphere(normal, random);
-        const double x = direction.dot(tangent), y = direction.dot(bitangent);
-        const double azimuth = std::atan2(y, x) / (2 * std::numbers::pi) + 0.5;
-        ++counts.at(bin(std::min(x * x + y * y, 1 - 1e-9)) * BINS +
+        const auto [x, y] = sampleDisc(random);
+        const V3d direction = cosineHemisphere(normal, x, y);
+        const double u = direction.dot(tangent), v = direction.dot(bitangent);
+        const double azimuth = std::atan2(v, u) / (2 * std::numbers::pi) + 0.5;
+        ++counts.at(bin(std::min(u * u + v * v, 1 - 1e-9)) * BINS +
                     bin(std::min(azimuth, 1 - 1e-9)));
     }
     EXPECT_TRUE(fits(counts, std::vector<double>(BINS * BINS, 1.0 / (BINS * BINS))));
@@ -87,20 +98,21 @@ INSTANTIATE_TEST_SUITE_P(Normals, CosineHemisphere,
 
 // Barycentric coordinates of uniform points: u = 1 - sqrt(1 - i/n) halves have equal areas, so
 // (1 - u)^2 and v / (1 - u) are uniform in the unit square.
-TEST(SampleTriangle, IsUniformInArea) {
+TEST(PointOfTriangle, IsUniformInArea) {
     const V3d a(1, 2, 3), ab(4, 0, -1), ac(-1, 2, 5);
     Random random(5);
     std::vector<std::size_t> counts(BINS * BINS);
     for (int i = 0; i < SAMPLES; ++i) {
-        const V3d p = sampleTriangle(a, a + ab, a + ac, random) - a;
+        const auto [first, second] = random.uniformSquare();
+        const V3d p = pointOfTriangle(a, ab, ac - ab, first, second) - a;
         const double bb = ab.dot(ab), bc = ab.dot(ac), cc = ac.dot(ac);
         const double determinant = bb * cc - bc * bc;
         const double u = (cc * p.dot(ab) - bc * p.dot(ac)) / determinant;
         const double v = (bb * p.dot(ac) - bc * p.dot(ab)) / determinant;
         ASSERT_NEAR((p - u * ab - v * ac).length(), 0, 1e-9);
-        const double first = std::clamp((1 - u) * (1 - u), 0.0, 1 - 1e-9);
-        const double second = std::clamp(v / (1 - u), 0.0, 1 - 1e-9);
-        ++counts.at(bin(first) * BINS + bin(second));
+        const double one = std::clamp((1 - u) * (1 - u), 0.0, 1 - 1e-9);
+        const double other = std::clamp(v / (1 - u), 0.0, 1 - 1e-9);
+        ++counts.at(bin(one) * BINS + bin(other));
     }
     EXPECT_TRUE(fits(counts, std::vector<double>(BINS * BINS, 1.0 / (BINS * BINS))));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/LightSampler.h"
 
+#include "math/Random.h"
 #include "test/Shapes.h"
 #include "test/Statistics.h"
 
@@ -31,8 +32,8 @@ TEST(LightSampler, ChoosesTrianglesByPower) {
     Random random(1);
     std::vector<std::size_t> counts(3);
     for (int i = 0; i < 100000; ++i) {
-        const V3d point = lights.sample(random).point;
-        ++counts[point.y >= 4 ? 2 : point.x >= 2 ? 1 : 0];
+        const V3d vertex = lights.choose(random.uniform()).a;
+        ++counts[vertex.y >= 4 ? 2 : vertex.x >= 2 ? 1 : 0];
     }
     EXPECT_TRUE(test::fits(counts, std::vector<double>{1.5 / 5, 1.5 / 5, 2.0 / 5}));
 }
@@ -42,11 +43,11 @@ TEST(LightSampler, GivesTheDensityPerAreaAndTheRadiance) {
     const LightSampler lights(threeLights());
     Random random(2);
     for (int i = 0; i < 100; ++i) {
-        const LightSample sample = lights.sample(random);
-        const double exitance = sample.point.y >= 4 ? 1 : 3;
-        EXPECT_DOUBLE_EQ(sample.pdfArea, exitance / 5);
-        EXPECT_DOUBLE_EQ(sample.radiance, exitance / std::numbers::pi);
-        EXPECT_EQ(sample.normal, V3d(0, 0, 1));
+        const Emitter& emitter = lights.choose(random.uniform());
+        const double exitance = emitter.a.y >= 4 ? 1 : 3;
+        EXPECT_DOUBLE_EQ(emitter.pdfArea, exitance / 5);
+        EXPECT_DOUBLE_EQ(emitter.radiance, exitance / std::numbers::pi);
+        EXPECT_EQ(emitter.normal, V3d(0, 0, 1));
     }
 }
 
