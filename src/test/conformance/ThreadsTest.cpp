@@ -30,16 +30,16 @@ TEST(Threads, ManyThreadsGetTheAnswersOfOne) {
     EXPECT_EQ(different, 0);
 }
 
-TEST(Threads, ManyRaysGetTheAnswersOfSingleRays) {
-    std::mt19937 random(8);
-    const Triangles triangles = soup(500, 0.3, random);
+/// Every eleventh question has a number that is none.
+void expectTheAnswersOfSingleRays(const Triangles& triangles) {
     const auto kernel = kernelFor(triangles);
     RandomPoints points(V3f(0), 1.5);
     for (const std::size_t count : {0, 1, 2, 7, 16, 64, 333}) {
         std::vector<Ray> rays;
         std::vector<RTKernel::Segment> segments;
         for (std::size_t i = 0; i < count; ++i) {
-            const V3f x = points.next(), y = points.next();
+            const V3f x = points.next();
+            const V3f y = i % 11 == 10 ? V3f(NOT_A_NUMBER) : points.next();
             rays.push_back(towards(x, y));
             segments.push_back({x, y});
         }
@@ -52,6 +52,17 @@ TEST(Threads, ManyRaysGetTheAnswersOfSingleRays) {
             ASSERT_EQ(kernel->kernelVisibility(segments[i].x, segments[i].y), visible[i]);
         }
     }
+}
+
+TEST(Threads, ManyRaysGetTheAnswersOfSingleRays) {
+    std::mt19937 random(8);
+    expectTheAnswersOfSingleRays(soup(500, 0.3, random));
+}
+
+TEST(Threads, ManyRaysGetTheAnswersOfSingleRaysWhereTrianglesCoincide) {
+    std::mt19937 random(8);
+    const Triangles triangles = soup(300, 0.3, random);
+    expectTheAnswersOfSingleRays(joined({triangles, triangles, triangles}));
 }
 
 }  // namespace
