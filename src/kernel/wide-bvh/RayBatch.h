@@ -79,9 +79,9 @@ class RayBatch {
         float operator[](int axis) const { return rows[static_cast<std::size_t>(axis)][ray]; }
     };
 
+    /// Without a branch, so that compilers make vectors of it.
     void setConstants(float reach) {
         constexpr auto PLANE = static_cast<std::uint32_t>(WIDTH);
-#pragma omp simd
         for (std::size_t i = 0; i < SIZE; ++i) {
             const float x = std::abs(direction_[0][i]), y = std::abs(direction_[1][i]),
                         z = std::abs(direction_[2][i]);
