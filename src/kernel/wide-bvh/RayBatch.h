@@ -81,7 +81,6 @@ class RayBatch {
 
     /// Without a branch, so that compilers make vectors of it.
     void setConstants(float reach) {
-        constexpr auto PLANE = static_cast<std::uint32_t>(WIDTH);
         for (std::size_t i = 0; i < SIZE; ++i) {
             const float x = std::abs(direction_[0][i]), y = std::abs(direction_[1][i]),
                         z = std::abs(direction_[2][i]);
@@ -89,12 +88,13 @@ class RayBatch {
             float allNumbers = 0;
             std::uint32_t octant = 0;
             for (std::uint32_t axis = 0; axis < 3; ++axis) {
-                const AxisConstants one(origin_[axis][i], direction_[axis][i], longest, reach);
+                const AxisConstants one(axis, origin_[axis][i], direction_[axis][i], longest,
+                                        reach);
                 inverse_[axis][i] = one.inverse;
                 nearOffset_[axis][i] = one.nearOffset;
                 farOffset_[axis][i] = one.farOffset;
-                nearPlane_[axis][i] = (axis + 3 * one.isBackwards) * PLANE;
-                farPlane_[axis][i] = (axis + 3 - 3 * one.isBackwards) * PLANE;
+                nearPlane_[axis][i] = one.nearPlane;
+                farPlane_[axis][i] = one.farPlane;
                 octant |= one.isBackwards << axis;
                 allNumbers += 0 * origin_[axis][i] + 0 * direction_[axis][i];
             }

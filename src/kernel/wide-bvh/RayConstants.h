@@ -19,11 +19,13 @@ namespace bwfirt::wide {
 /// makes the ray miss a box that it meets.
 struct AxisConstants {
     float inverse, nearOffset, farOffset;
+    /// Where a node's planes begin that are met first and last, in numbers from the first plane.
+    std::uint32_t nearPlane, farPlane;
     std::uint32_t isBackwards;  ///< 1 where the direction is negative
 
     /// @param longest what the direction is along the axis where it is longest, up to its sign
     /// @param reach the largest coordinate of the scene, up to its sign
-    AxisConstants(float origin, float direction, float longest, float reach) {
+    AxisConstants(std::uint32_t axis, float origin, float direction, float longest, float reach) {
         // Less than this moves the ray by less than rounding does, and needs no infinity.
         const float least = longest * 0x1p-60F;
         inverse = 1 / std::copysign(std::max(std::abs(direction), least), direction);
@@ -33,6 +35,9 @@ struct AxisConstants {
         nearOffset = origin * inverse + error;
         farOffset = origin * inverse - error;
         isBackwards = std::bit_cast<std::uint32_t>(direction) >> 31;
+        constexpr auto PLANE = static_cast<std::uint32_t>(WIDTH);
+        nearPlane = (axis + 3 * isBackwards) * PLANE;
+        farPlane = (axis + 3 - 3 * isBackwards) * PLANE;
     }
 };
 
@@ -41,8 +46,8 @@ struct RayConstants {
     /// Unit roundoff of single precision.
     static constexpr float ROUNDING = 0x1p-24F;
 
-    std::array<float, 3> inverse, nearOffset, farOffset;  ///< see AxisConstants
-    /// Where a node's planes begin that are met first and last, in numbers from the first plane.
+    /// By axis: see AxisConstants.
+    std::array<float, 3> inverse, nearOffset, farOffset;
     std::array<std::uint32_t, 3> nearPlane, farPlane;
 
     /// The axes, of which z is that along which the direction is longest, and the ray in them: see
@@ -55,23 +60,20 @@ struct RayConstants {
     RayConstants(const V3f& origin, const V3f& direction, float reach) {
         const V3f length(std::abs(direction.x), std::abs(direction.y), std::abs(direction.z));
         const float longest = std::max({length.x, length.y, length.z});
-        for (int axis = 0; axis < 3; ++axis)
-            setAxis(axis, AxisConstants(origin[axis], direction[axis], longest, reach));
+        for (std::uint32_t axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<int>(axis);
+            const AxisConstants one(axis, origin[a], direction[a], longest, reach);
+            inverse[axis] = one.inverse;
+            nearOffset[axis] = one.nearOffset;
+            farOffset[axis] = one.farOffset;
+            nearPlane[axis] = one.nearPlane;
+            farPlane[axis] = one.farPlane;
+        }
         setTriangleAxes(longestAxis(length.x, length.y, length.z), origin, direction,
                         V3f(inverse[0], inverse[1], inverse[2]));
     }
 
     RayConstants() = default;
-
-    void setAxis(int axis, const AxisConstants& constants) {
-        constexpr auto PLANE = static_cast<std::uint32_t>(WIDTH);
-        const auto i = static_cast<std::size_t>(axis);
-        inverse[i] = constants.inverse;
-        nearOffset[i] = constants.nearOffset;
-        farOffset[i] = constants.farOffset;
-        nearPlane[i] = (static_cast<std::uint32_t>(axis) + 3 * constants.isBackwards) * PLANE;
-        farPlane[i] = (static_cast<std::uint32_t>(axis) + 3 - 3 * constants.isBackwards) * PLANE;
-    }
 
     /// @param inverseByAxis that of AxisConstants, by axis
     template <typename Vector>
