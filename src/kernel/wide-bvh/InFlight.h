@@ -49,6 +49,7 @@ class InFlight {
             underWay &= ~(isAtEnd << ray);
         };
         while (underWay != 0) {
+            // Those that come to a leaf in this turn leave its memory time until the next one.
             const Bits atLeafNow = underWay & atLeaf;
             for (Bits left = underWay & ~atLeaf; left != 0; left &= left - 1) {
                 const auto ray = static_cast<std::size_t>(std::countr_zero(left));

@@ -60,7 +60,7 @@ class NearestHit {
     return false;
 }
 
-/// Whether any of them does. Single precision leaves it open for few.
+/// Whether any triangle of the leaf blocks the segment. Single precision leaves that open for few.
 inline bool isBlockedBy(const Leaf& leaf, const RayConstants& constants,
                         const RTKernel::Segment& segment) {
     const LeafMeeting meeting = meet(leaf, constants, 1);

@@ -19,7 +19,7 @@ struct LeafMeeting {
 /// z: origin, shear and their differences leave an error of at most e (2 S + 4.5 Z) in x and y, and
 /// the two products of an edge's sign with their difference at most e (11 S^2 + 18 S Z).
 inline LeafMeeting meet(const Leaf& leaf, const RayConstants& ray, float tMax) {
-    constexpr float E = RayConstants::ROUNDING;
+    constexpr float E = ROUNDING;
     const Floats vertexZ = leaf.coordinates(ray.z) - all(ray.originZ);
     const Floats vertexX =
         subtractProduct(leaf.coordinates(ray.x) - all(ray.originX), all(ray.shearX), vertexZ);

@@ -13,6 +13,9 @@
 
 namespace bwfirt::wide {
 
+/// Unit roundoff of single precision.
+constexpr float ROUNDING = 0x1p-24F;
+
 /// What the test of boxes needs of the points origin + t * direction along one axis: of a plane at
 /// x the ray is at t = x * inverse - offset. The offsets of planes where a box is entered are so
 /// much larger, of those where it is left so much smaller, that no rounding of single precision
@@ -31,7 +34,7 @@ struct AxisConstants {
         inverse = 1 / std::copysign(std::max(std::abs(direction), least), direction);
         // The product x * inverse is rounded once and inverse once, the offset thrice, each time by
         // a share of |x * inverse| or |origin * inverse|; and so is the distance of a hit.
-        const float error = 6 * 0x1p-24F * std::abs(inverse) * (std::abs(origin) + reach);
+        const float error = 6 * ROUNDING * std::abs(inverse) * (std::abs(origin) + reach);
         nearOffset = origin * inverse + error;
         farOffset = origin * inverse - error;
         isBackwards = std::bit_cast<std::uint32_t>(direction) >> 31;
@@ -43,9 +46,6 @@ struct AxisConstants {
 
 /// What the tests of boxes and triangles need of the points origin + t * direction.
 struct RayConstants {
-    /// Unit roundoff of single precision.
-    static constexpr float ROUNDING = 0x1p-24F;
-
     /// By axis: see AxisConstants.
     std::array<float, 3> inverse, nearOffset, farOffset;
     std::array<std::uint32_t, 3> nearPlane, farPlane;

@@ -130,7 +130,7 @@ class WideTree {
             __builtin_prefetch(first + i);
     }
 
-    /// Likewise as much as a node takes, whatever stands there: there is no branch that a processor
+    /// Fetches as much as a node takes, whatever stands there: there is no branch that a processor
     /// may guess wrongly.
     void prefetchAny(std::uint32_t child) const {
         const Line* const first = &lines_[Child::line(child)];
