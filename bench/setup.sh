@@ -5,7 +5,7 @@
 set -eu
 
 packages='
-    g++ clang libclang-rt-dev libomp-dev scons git
+    g++ clang lld libclang-rt-dev libomp-dev scons git
     libimath-dev libopenexr-dev libpng-dev libxxhash-dev libcli11-dev nlohmann-json3-dev
     libassimp-dev libgtest-dev libembree-dev
     libsdl2-dev libsdl2-ttf-dev libfontconfig-dev fonts-dejavu-core xvfb xdotool openbox
