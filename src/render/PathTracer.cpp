@@ -102,8 +102,8 @@ void PathTracer::choose(Paths& paths, std::size_t first) const {
     std::tie(choices.u, choices.v) = random.uniformSquare();
     const Doubles4 roulette = random.uniform();
     std::tie(choices.x, choices.y) = sampleDisc(random);
+    choices.emitters = lights_.choose<LANES>(emitters);
     for (std::size_t lane = 0; lane < LANES; ++lane) {
-        choices.emitters[lane] = &lights_.choose(emitters[lane]);
         choices.goOn[lane] = roulette[lane] < scene_.reflectance;
         paths.states[arrived[lane]].random = random.state()[lane];
     }

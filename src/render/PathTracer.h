@@ -49,7 +49,7 @@ class PathTracer : public Integrator {
     /// Paths that a thread follows in turns where it asks ray by ray. A path's next ray depends on
     /// the answer to its last one; with only one path a processor could do none of the path
     /// tracer's work and none of the kernel's while it waits for the other.
-    static constexpr std::size_t PATHS_IN_TURNS = 16;
+    static constexpr std::size_t PATHS_IN_TURNS = 64;
 
     struct Paths;
 

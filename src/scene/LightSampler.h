@@ -3,6 +3,7 @@
 
 #include "scene/Scene.h"
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -25,16 +26,22 @@ class LightSampler {
     /// Sum of area * exitance over all triangles of all lights, of one side.
     double totalPower() const { return powers_.empty() ? 0 : powers_.back(); }
 
-    /// The triangle to which the random number u in [0, 1) belongs. Must not be called where the
-    /// total power is 0.
-    const Emitter& choose(double u) const {
-        const double target = u * powers_.back();
+    /// The triangles to which random numbers u[0], u[1], ... in [0, 1) belong. Must not be called
+    /// where the total power is 0. What is found for one of them does not wait for another.
+    /// @tparam Numbers as many as COUNT, of type double
+    template <std::size_t COUNT, typename Numbers>
+    std::array<const Emitter*, COUNT> choose(const Numbers& u) const {
         // The first emitter beyond the target. Which half it is in cannot be predicted, hence a
         // factor instead of a branch.
-        const double* found = powers_.data();
+        std::array<std::size_t, COUNT> found{};
         for (std::size_t count = powers_.size(); count > 1; count -= count / 2)
-            found += (found[count / 2 - 1] <= target) * (count / 2);
-        return emitters_[static_cast<std::size_t>(found - powers_.data())];
+            for (std::size_t i = 0; i < COUNT; ++i)
+                found[i] +=
+                    (powers_[found[i] + count / 2 - 1] <= u[i] * powers_.back()) * (count / 2);
+        std::array<const Emitter*, COUNT> emitters;
+        for (std::size_t i = 0; i < COUNT; ++i)
+            emitters[i] = &emitters_[found[i]];
+        return emitters;
     }
 
     /// The radiance that the triangle emits, 0 where it is no light.

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 #include <numbers>
 
@@ -31,9 +32,12 @@ TEST(LightSampler, ChoosesTrianglesByPower) {
     EXPECT_DOUBLE_EQ(lights.totalPower(), 5);
     Random random(1);
     std::vector<std::size_t> counts(3);
-    for (int i = 0; i < 100000; ++i) {
-        const V3d vertex = lights.choose(random.uniform()).a;
-        ++counts[vertex.y >= 4 ? 2 : vertex.x >= 2 ? 1 : 0];
+    for (int i = 0; i < 50000; ++i) {
+        for (const Emitter* const emitter :
+             lights.choose<2>(std::array{random.uniform(), random.uniform()})) {
+            const V3d vertex = emitter->a;
+            ++counts[vertex.y >= 4 ? 2 : vertex.x >= 2 ? 1 : 0];
+        }
     }
     EXPECT_TRUE(test::fits(counts, std::vector<double>{1.5 / 5, 1.5 / 5, 2.0 / 5}));
 }
@@ -43,7 +47,7 @@ TEST(LightSampler, GivesTheDensityPerAreaAndTheRadiance) {
     const LightSampler lights(threeLights());
     Random random(2);
     for (int i = 0; i < 100; ++i) {
-        const Emitter& emitter = lights.choose(random.uniform());
+        const Emitter& emitter = *lights.choose<1>(std::array{random.uniform()})[0];
         const double exitance = emitter.a.y >= 4 ? 1 : 3;
         EXPECT_DOUBLE_EQ(emitter.pdfArea, exitance / 5);
         EXPECT_DOUBLE_EQ(emitter.radiance, exitance / std::numbers::pi);
