@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "kernel/wide-bvh/BinaryTreeBuilder.h"
 
+#include "kernel/KernelArray.h"
 #include "kernel/wide-bvh/ObjectSplit.h"
 #include "kernel/wide-bvh/Partition.h"
 #include "kernel/wide-bvh/SpatialSplit.h"
@@ -120,7 +121,7 @@ class Builder {
             return bins.of(reference)[split.axis] < split.bin ? Side::BELOW : Side::ABOVE;
         };
         const auto cutOf = [](const Reference& reference) { return Parts{reference, reference}; };
-        return divide(task, sideOf, cutOf);
+        return divide(task, sideOf, cutOf, false);
     }
 
     Children divide(const Task& task, const Slabs& slabs, const SpatialSplit& split) const {
@@ -134,15 +135,15 @@ class Builder {
         const auto cutOf = [&](const Reference& reference) {
             return cut(reference, triangles_[reference.triangle()], plane);
         };
-        return divide(task, sideOf, cutOf);
+        return divide(task, sideOf, cutOf, true);
     }
 
     template <typename SideOf, typename CutOf>
-    Children divide(const Task& task, const SideOf& sideOf, const CutOf& cutOf) const {
+    Children divide(const Task& task, const SideOf& sideOf, const CutOf& cutOf, bool mayCut) const {
         Reference* const tail = references_.data() + task.end;
         return share(task, task.size() < MANY
                                ? partition(referencesOf(task), tail, sideOf, cutOf)
-                               : partitionInTasks(referencesOf(task), tail, sideOf, cutOf));
+                               : partitionInTasks(referencesOf(task), tail, sideOf, cutOf, mayCut));
     }
 
     Children halve(const Task& task) const {
@@ -181,19 +182,13 @@ class Builder {
     double rootArea_;
 };
 
-/// Makes references to all triangles with an area.
+/// Makes references to all triangles with an area, and puts them in front.
 Group refer(std::span<const Triangle> triangles, std::span<Reference> references) {
     const Pieces pieces(triangles.size());
-    std::array<std::size_t, Pieces::COUNT + 1> counts{};
     std::array<Group, Pieces::COUNT> groups;
 #pragma omp parallel for schedule(dynamic)
-    for (std::size_t piece = 0; piece < Pieces::COUNT; ++piece)
-        for (std::size_t i = pieces.begin(piece); i < pieces.end(piece); ++i)
-            counts[piece + 1] += hasArea(triangles[i]) ? 1 : 0;
-    std::partial_sum(counts.begin(), counts.end(), counts.begin());
-#pragma omp parallel for schedule(dynamic)
     for (std::size_t piece = 0; piece < Pieces::COUNT; ++piece) {
-        std::size_t next = counts[piece];
+        std::size_t next = pieces.begin(piece);
         for (std::size_t i = pieces.begin(piece); i < pieces.end(piece); ++i) {
             if (!hasArea(triangles[i]))
                 continue;
@@ -205,8 +200,12 @@ Group refer(std::span<const Triangle> triangles, std::span<Reference> references
         }
     }
     Group all;
-    for (const Group& group : groups)
-        all.add(group);
+    for (std::size_t piece = 0; piece < Pieces::COUNT; ++piece) {
+        if (all.size < pieces.begin(piece))
+            std::copy_n(&references[pieces.begin(piece)], groups[piece].size,
+                        &references[all.size]);
+        all.add(groups[piece]);
+    }
     return all;
 }
 
@@ -230,12 +229,12 @@ BinaryTree buildBinaryTree(std::span<const Triangle> triangles, double mostRefer
                                                std::max(mostReferences, 1.0));
     if (room > std::numeric_limits<std::uint32_t>::max() / 2)
         throw std::length_error("more references to triangles than a tree can number");
-    UnsetVector<Reference> references(room);
+    const auto references = makeKernelArrayInHugePages<Reference>(room);
     BinaryTree tree;
     tree.nodes.resize(2 * room);
     tree.parents.resize(room);
     tree.references.resize(room);
-    build(tree, triangles, references);
+    build(tree, triangles, {references.get(), room});
     return tree;
 }
 

@@ -83,19 +83,22 @@ void exchange(std::span<Reference> references,
 
 /// The same as partition(), in tasks: divides each piece, and then exchanges what is on the wrong
 /// side.
+/// @param mayCut whether any reference may be on both sides
 template <typename SideOf, typename CutOf>
 Partition partitionInTasks(std::span<Reference> references, Reference* tail, const SideOf& sideOf,
-                           const CutOf& cutOf) {
+                           const CutOf& cutOf, bool mayCut) {
     const Pieces pieces(references.size());
     const auto piece = [&](std::size_t i) {
         return references.subspan(pieces.begin(i), pieces.end(i) - pieces.begin(i));
     };
     std::array<std::size_t, Pieces::COUNT + 1> cuts{};  // in the pieces before
+    if (mayCut) {
 #pragma omp taskloop grainsize(1) default(shared)
-    for (std::size_t i = 0; i < Pieces::COUNT; ++i)
-        for (const Reference& reference : piece(i))
-            cuts[i + 1] += sideOf(reference) == Side::BOTH ? 1 : 0;
-    std::partial_sum(cuts.begin(), cuts.end(), cuts.begin());
+        for (std::size_t i = 0; i < Pieces::COUNT; ++i)
+            for (const Reference& reference : piece(i))
+                cuts[i + 1] += sideOf(reference) == Side::BOTH ? 1 : 0;
+        std::partial_sum(cuts.begin(), cuts.end(), cuts.begin());
+    }
 
     std::array<Partition, Pieces::COUNT> parts;
 #pragma omp taskloop grainsize(1) default(shared)
