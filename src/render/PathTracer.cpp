@@ -82,15 +82,24 @@ struct PathTracer::Paths {
 
 void PathTracer::begin(Paths& paths, std::span<Sample>& samples) const {
     paths.begun = paths.count;
-    for (; paths.count < paths.most && !samples.empty(); ++paths.count) {
-        Sample& sample = samples.front();
-        samples = samples.subspan(1);
-        sample.value = V3d(0);
-        Random random(sample.seed);
+    const std::size_t news = std::min(paths.most - paths.count, samples.size());
+    for (std::size_t first = 0; first < news; first += LANES) {
+        std::array<Sample*, LANES> begun;  // lanes that are over repeat the last one
+        for (std::size_t lane = 0; lane < LANES; ++lane)
+            begun[lane] = &samples[std::min(first + lane, news - 1)];
+        RandomLanes random(gather<Bits4>([&](std::size_t lane) { return begun[lane]->seed; }));
         const auto [u, v] = random.uniformSquare();
-        paths.rays[paths.count] = cameraRays_.through(sample.x + u, sample.y + v);
-        paths.states[paths.count] = {&sample, random.state()};
+        const auto x = gather<Doubles4>([&](std::size_t lane) { return begun[lane]->x; });
+        const auto y = gather<Doubles4>([&](std::size_t lane) { return begun[lane]->y; });
+        const auto directions = scatterV3f(cameraRays_.direction<Doubles4>(x + u, y + v));
+        for (std::size_t lane = 0; lane < LANES; ++lane) {
+            begun[lane]->value = V3d(0);
+            paths.rays[paths.count + first + lane] = {cameraRays_.origin(), directions[lane]};
+            paths.states[paths.count + first + lane] = {begun[lane], random.state()[lane]};
+        }
     }
+    paths.count += news;
+    samples = samples.subspan(news);
 }
 
 void PathTracer::choose(Paths& paths, std::size_t first) const {

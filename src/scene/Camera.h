@@ -45,9 +45,18 @@ class CameraRays {
 
     /// The ray through the image point (x, y) in pixels: (0, 0) is the upper left corner of the
     /// image, (width, height) the lower right one.
-    Ray through(double x, double y) const {
-        const V3d direction = toUpperLeft_ + x * alongRow_ + y * alongColumn_;
-        return {origin_, V3f(direction * (1 / std::sqrt(direction.dot(direction))))};
+    Ray through(double x, double y) const { return {origin_, V3f(direction(x, y))}; }
+
+    /// Its origin, which all rays share, and its direction. Number is double, or several of them.
+    const V3f& origin() const { return origin_; }
+    template <typename Number>
+    Vec3<Number> direction(const Number& x, const Number& y) const {
+        using std::sqrt;
+        const auto all = [](const V3d& v) {
+            return Vec3<Number>(Number(v.x), Number(v.y), Number(v.z));
+        };
+        const Vec3<Number> d = all(toUpperLeft_) + x * all(alongRow_) + y * all(alongColumn_);
+        return d * (1 / sqrt(d.dot(d)));
     }
 
     /// Where through() would have to go to meet a point, in homogeneous coordinates: the image
