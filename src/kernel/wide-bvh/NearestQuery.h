@@ -16,6 +16,8 @@ class NearestQuery {
         : tree_(tree), ray_(ray), constants_(ray.origin, ray.direction, tree.reach()) {}
 
     std::optional<Hit> answer() {
+        if (!constants_.canBeAsked)
+            return std::nullopt;
         while (step()) {
         }
         return nearest_.hit();

@@ -76,7 +76,10 @@ class RayBatch {
     struct Column {
         const Rows<float>& rows;
         std::size_t ray;
-        float operator[](int axis) const { return rows[static_cast<std::size_t>(axis)][ray]; }
+        template <typename Axis>
+        float operator[](Axis axis) const {
+            return rows[static_cast<std::size_t>(axis)][ray];
+        }
     };
 
     /// Without a branch, so that compilers make vectors of it.
@@ -88,8 +91,8 @@ class RayBatch {
             float allNumbers = 0;
             std::uint32_t octant = 0;
             for (std::uint32_t axis = 0; axis < 3; ++axis) {
-                const AxisConstants one(axis, origin_[axis][i], direction_[axis][i], longest,
-                                        reach);
+                const AxisConstants<float> one(axis, origin_[axis][i], direction_[axis][i], longest,
+                                               reach);
                 inverse_[axis][i] = one.inverse;
                 nearOffset_[axis][i] = one.nearOffset;
                 farOffset_[axis][i] = one.farOffset;

@@ -20,6 +20,8 @@ class VisibilityQuery {
     }
 
     bool answer() {
+        if (!constants_.canBeAsked)
+            return true;
         while (leafCount_ > 0 || nodeCount_ > 0) {
             if (leafCount_ == 0)
                 visitNodes();

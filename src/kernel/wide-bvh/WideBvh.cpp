@@ -21,13 +21,13 @@ class WideBvh : public RTKernel {
     }
 
     std::optional<Hit> kernelIntersectGeometry(const Ray& ray) const override {
-        if (!canBeAsked(ray.origin, ray.direction))
+        if (tree_.isEmpty())
             return std::nullopt;
         return NearestQuery(tree_, ray).answer();
     }
 
     bool kernelVisibility(const V3f& x, const V3f& y) const override {
-        if (!canBeAsked(x, y - x))
+        if (tree_.isEmpty())
             return true;
         return VisibilityQuery(tree_, {x, y}).answer();
     }
@@ -52,10 +52,6 @@ class WideBvh : public RTKernel {
     }
 
   private:
-    bool canBeAsked(const V3f& origin, const V3f& direction) const {
-        return !tree_.isEmpty() && isFinite(origin) && isFinite(direction) && direction != V3f(0);
-    }
-
     template <typename Queries, typename Question, typename Answer>
     void askInFlight(std::span<const Question> questions, std::span<Answer> answers,
                      const Answer& withoutTriangles) const {
