@@ -4,10 +4,10 @@
 #include "kernel/Simd4.h"
 #include "kernel/WatertightRay.h"
 #include "kernel/wide-bvh/Simd.h"
+#include "math/Random.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -45,7 +45,7 @@ struct AxisConstants {
         const Number error = 6 * ROUNDING * abs(inverse) * (abs(origin) + reach);
         nearOffset = origin * inverse + error;
         farOffset = origin * inverse - error;
-        isBackwards = std::bit_cast<Index>(direction) >> 31;
+        isBackwards = sameBits<Index>(direction) >> 31;
         constexpr auto PLANE = static_cast<std::uint32_t>(WIDTH);
         nearPlane = (axis + 3 * isBackwards) * PLANE;
         farPlane = (axis + 3 - 3 * isBackwards) * PLANE;
