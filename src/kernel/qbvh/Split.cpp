@@ -191,7 +191,9 @@ std::optional<Parts> splitBySah(const Group& group) {
 }
 
 Parts halve(const Group& group) {
-    const std::size_t middle = group.size() / 2;
+    constexpr std::size_t MOST = LeafAddress::MOST_TRIANGLES;
+    const std::size_t half = group.size() / 2;
+    const std::size_t middle = half < MOST ? half : half / MOST * MOST;
     return {groupOf(group.references.first(middle)), groupOf(group.references.subspan(middle))};
 }
 

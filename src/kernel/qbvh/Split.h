@@ -48,7 +48,8 @@ struct Parts {
 /// nothing where all centres are the same.
 std::optional<Parts> splitBySah(const Group& group);
 
-/// Halves the references as they stand.
+/// Halves the references as they stand, where there are many at a whole number of full leaves, so
+/// that the parts need no more leaves than the group.
 Parts halve(const Group& group);
 
 }  // namespace bwfirt

@@ -111,6 +111,22 @@ TEST(Triangles, OneHugeAmongManySmallTriangles) {
     expectRightAnswers(joined({soup(1000, 0.1, random), huge}), V3f(0), 1.5);
 }
 
+/// Wherever a builder divides space, it gets few triangles on one side and all others on the other.
+TEST(Triangles, EachTwiceAsLargeAndAsFarAwayAsTheLast) {
+    std::mt19937 random(8);
+    for (const int count : {30, 40}) {
+        Triangles triangles = soup(static_cast<std::size_t>(count), 0.5, random);
+        double scale = std::ldexp(1.0, -count / 2);
+        for (Triangle& triangle : triangles) {
+            for (V3f& vertex : triangle.vertices)
+                vertex = V3f(scale * (V3d(1) + V3d(vertex)));
+            scale *= 2;
+        }
+        for (int exponent = -count / 2; exponent <= count / 2; exponent += 5)
+            expectRightAnswers(triangles, V3f(0), std::ldexp(1.0, exponent), 200);
+    }
+}
+
 TEST(Triangles, ExtremeCoordinatesGetADefinedAnswer) {
     std::mt19937 random(7);
     for (const float scale : {1e17F, 3e38F, 1e-40F}) {
