@@ -28,6 +28,7 @@ class NearestQuery {
     bool step() {
         if (!Child::isLeaf(next_)) {
             const Node& node = tree_.node(next_);
+            __builtin_prefetch(&node.children);  // else not asked for before the boxes are tested
             return open_.enter(tree_, node, meet(node, constants_, nearest_.tMax()), next_);
         }
         const Leaf leaf = tree_.leaf(next_);

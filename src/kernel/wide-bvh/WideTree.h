@@ -118,7 +118,13 @@ class WideTree {
     const Node& node(std::uint32_t child) const {
         return *reinterpret_cast<const Node*>(&lines_[child]);
     }
-    Leaf leaf(std::uint32_t child) const { return Leaf(&lines_[Child::line(child)]); }
+    /// Fetches the lines behind the first, too: only the first tells where in them the rest stands.
+    Leaf leaf(std::uint32_t child) const {
+        const Line* const first = &lines_[Child::line(child)];
+        __builtin_prefetch(first + 1);
+        __builtin_prefetch(first + 2);
+        return Leaf(first);
+    }
 
     /// A child that no node has. Something stands there, so that it may be fetched.
     std::uint32_t end() const { return end_; }
